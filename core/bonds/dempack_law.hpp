@@ -1,0 +1,206 @@
+// The cohesive bond of the DEMpack model: elasto-damage in tension and shear, elasto-plasticity in compression, uncoupled Mohr-Coulomb
+// failure, friction afterwards.
+//
+// Reference: M. Santasusana, "Numerical techniques for non-linear analysis of structures combining discrete element and finite element
+// methods", thesis, UPC Barcelona, chapter 5; E. Onate et al., Comput. Part. Mech. 2 (2015) 301. Equation numbers are the thesis's.
+//
+//   symbol         meaning                                                      unit
+//   d, d0          distance of the centres, now and at the start                m
+//   u_n            shortening d0 - d, positive in compression                   m
+//   u_p            plastic shortening                                           m
+//   e              elongation -(u_n - u_p), positive in tension                 m
+//   u_t            elastic tangential displacement at the contact point         m
+//   A              contact area                                                 m2
+//   k_n, k_t       stiffness a E A / d0 and b G A / d0 (5.34)                   N/m
+//   d_n, d_t       damage in tension and in shear, 0 to 1, never decreasing     -
+//
+// Tension      F = -(1 - d_n) k_n e, damage from u_l = sigma_f A / k_n to u_f = (1 + s_n) u_l              (5.20-5.24)
+// Compression  F = min(k_n (u_n - u_p), envelope(u_n)); what lies above the envelope becomes plastic       (5.27-5.28)
+// Shear        F = (1 - d_t) k_t u_t, damage from u_l = (tau_f A + mu_s max(F_n, 0)) / k_t                 (5.20-5.24)
+// After failure  no cohesion, same stiffnesses, Coulomb friction mu_d; the tangential spring starts anew at zero (5.2.5), so that a
+//                failure never creates energy. Contact distance d0 - u_p, so that the normal force is continuous.
+//
+// Energies are those that a trapezoidal rule over the step gives, so the ledger closes to round-off whatever the step.
+#pragma once
+
+#include <cmath>
+
+#include "core/geometry/lanes.hpp"
+
+namespace proveta::dempack {
+
+constexpr double smallest = 1e-300;    ///< keeps quotients defined for bonds without strength
+
+/// Properties of a bond's material that do not depend on the pair's geometry. Defaults: thesis, table 5.5.
+struct Parameters {
+    double shear_ratio = 1.0 / 2.4;              ///< k_t / k_n = b G / (a E), (5.17)
+    double sigma_f = 5.0e6;                      ///< tensile strength, Pa
+    double tau_f = 16.0e6;                       ///< shear strength without normal force, Pa
+    double mu_s = 0.9;                           ///< internal friction of the intact bond
+    double mu_d = 0.25;                          ///< friction after failure
+    double softening_n = 0.2;                    ///< length of the softening branch in tension over u_l
+    double softening_t = 0.2;                    ///< the same in shear
+    double lcs[3] = {20.0e6, 45.0e6, 70.0e6};    ///< stresses where the compression envelope changes slope, ascending, Pa
+    double yrc[3] = {3.0, 12.0, 22.0};           ///< k_n over the slope beyond each of them, >= 1
+};
+
+/// What happens to a bond within one step.
+template <class T> struct Kinematics {
+    T shortening;        ///< u_n at the end of the step, m
+    T approach;          ///< increase of u_n during the step, m
+    T slip[3];           ///< tangential displacement increment, m
+};
+
+/// Memory of a bond. Shape: one bond (T = double) or one bond a lane.
+template <class T> struct State {
+    T u_t[3];         ///< elastic tangential displacement, m; turned with the bond's frame before the law sees it
+    T u_p;            ///< plastic shortening, m
+    T d_n;            ///< damage in tension; 1: failed
+    T d_t;            ///< damage in shear; 1: failed
+};
+
+/// Forces after the step, and where the energy of the step went.
+template <class T> struct Response {
+    T normal;            ///< F_n, positive in compression, N
+    T shear[3];          ///< force of j on i in the contact plane, N
+    T damage_work;       ///< dissipated by damage and failure, J
+    T plastic_work;      ///< dissipated by plastic shortening, J
+    T friction_work;     ///< dissipated by sliding after failure, J
+};
+
+/// Force of the compression envelope at shortening u (5.28): slope k_n up to LCS1, k_n / YRC_i beyond LCS_i. Valid for u >= 0.
+template <class T> inline T compression_envelope(const Parameters& p, const T& k_n, const T& area, const T& u) {
+    const T trial = k_n * u;
+    T bend = p.lcs[0] * area;                    // elastic force k_n u at which the branch begins
+    T base = bend;                               // envelope force there
+    T force = trial;
+    for (int b = 0; b < 3; ++b) {
+        force = select(trial > bend, base + (trial - bend) * (1.0 / p.yrc[b]), force);
+        if (b < 2) {
+            const T rise = (p.lcs[b + 1] - p.lcs[b]) * area;
+            bend = bend + rise * p.yrc[b];
+            base = base + rise;
+        }
+    }
+    return force;
+}
+
+/// One step of one bond. Pure: everything comes in by argument and leaves by state and result.
+///
+/// k_n in N/m and area in m2 are those of the bond; state is brought to the end of the step. Failure shows as damage reaching 1.
+template <class T>
+inline Response<T> advance(const Parameters& p, const T& k_n, const T& area, const Kinematics<T>& kin, State<T>& s) {
+    using std::max;
+    using std::min;
+    using std::sqrt;
+    const T zero = T(0.0);
+    const T one = T(1.0);
+    const T k_t = k_n * p.shear_ratio;
+    Response<T> r{zero, {zero, zero, zero}, zero, zero, zero};
+
+    // Normal direction. Elastic shortening now and before; negative is elongation.
+    const T elastic = kin.shortening - s.u_p;
+    const T before = elastic - kin.approach;
+    const auto was_broken = (s.d_n >= one) || (s.d_t >= one);
+    const T d_n_old = s.d_n;
+    const T d_t_old = s.d_t;
+    r.normal = k_n * elastic;
+
+    const T yield_force = p.lcs[0] * area;
+    if (any_of(r.normal > yield_force)) {
+        const T envelope = compression_envelope(p, k_n, area, max(kin.shortening, zero));
+        const auto yields = (r.normal > envelope) && (r.normal > zero);
+        const T more = select(yields, (r.normal - envelope) / k_n, zero);
+        r.normal = select(yields, envelope, r.normal);
+        s.u_p = s.u_p + more;
+        // mean of the force before and after: F1 - k (du - du_p) / 2
+        r.plastic_work = (r.normal - 0.5 * k_n * (kin.approach - more)) * more;
+    }
+
+    const T elongation = -elastic;
+    const T strength_n = p.sigma_f * area;
+    if (any_of(-r.normal > strength_n)) {
+        const T u_l = max(strength_n / k_n, T(smallest));
+        const T damage = min((elongation - u_l) / (p.softening_n * u_l), one);
+        s.d_n = select(was_broken, d_n_old, max(d_n_old, damage));
+    }
+
+    // Shear: the limit follows the current normal force.
+    T old[3];
+    T trial[3];
+    for (int c = 0; c < 3; ++c) {
+        old[c] = s.u_t[c];
+        trial[c] = old[c] + kin.slip[c];
+    }
+    const T length2 = trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2];
+    const T compression = max(r.normal, zero);
+    const T strength_t = p.tau_f * area + p.mu_s * compression;
+    if (any_of(k_t * k_t * length2 > strength_t * strength_t)) {
+        const T u_l = max(strength_t / k_t, T(smallest));
+        const T damage = min((sqrt(length2) - u_l) / (p.softening_t * u_l), one);
+        s.d_t = select(was_broken, d_t_old, max(d_t_old, damage));
+    }
+
+    const auto broken = (s.d_n >= one) || (s.d_t >= one);
+    const auto in_tension = elongation > zero;
+    const T stays_n = select(broken, zero, one - s.d_n);    // share of the tensile stiffness that is left
+    r.normal = select(in_tension, r.normal * stays_n, r.normal);
+    for (int c = 0; c < 3; ++c) {
+        s.u_t[c] = trial[c];
+        r.shear[c] = k_t * trial[c] * (one - s.d_t);
+    }
+
+    // Dissipation by damage: (1/2) k u(before) u(now) times the loss of stiffness, which is what the trapezoidal work leaves over.
+    const T lost_n = select(was_broken, zero, (one - d_n_old) - stays_n);
+    const T lost_t = select(was_broken, zero, select(broken, one - d_t_old, s.d_t - d_t_old));
+    if (any_of(lost_n > zero) || any_of(lost_t > zero)) {
+        const T product_n = max(-before, zero) * max(elongation, zero);
+        const T product_t = old[0] * trial[0] + old[1] * trial[1] + old[2] * trial[2];
+        r.damage_work = 0.5 * k_n * product_n * lost_n + 0.5 * k_t * product_t * lost_t;
+    }
+
+    if (any_of(broken)) {
+        const auto fails_now = broken && !was_broken;
+        const T coulomb = p.mu_d * max(r.normal, zero);
+        const T length = sqrt(length2);
+        const T force = k_t * length;
+        const T scale = select(force > coulomb, coulomb / max(force, T(smallest)), one);
+        for (int c = 0; c < 3; ++c) {
+            const T keep = select(fails_now, zero, trial[c] * scale);    // at failure the spring starts at zero
+            const T slid = select(was_broken, trial[c] - keep, zero);
+            const T friction = 0.5 * k_t * (old[c] + keep) * slid;
+            r.friction_work = r.friction_work + friction;
+            s.u_t[c] = select(broken, keep, s.u_t[c]);
+            r.shear[c] = select(broken, k_t * keep, r.shear[c]);
+        }
+    }
+    return r;
+}
+
+/// Energy that the bond can give back, J: normal and tangential springs. Same arguments as `advance`, after it.
+template <class T>
+inline T stored_energy(const Parameters& p, const T& k_n, const T& shortening, const T& normal, const State<T>& s) {
+    using std::max;
+    const T elongation = s.u_p - shortening;
+    const T in_normal = 0.5 * select(elongation > T(0.0), -normal * elongation, normal * normal / k_n);
+    const auto broken = (s.d_n >= T(1.0)) || (s.d_t >= T(1.0));
+    const T left = select(broken, T(1.0), T(1.0) - s.d_t);
+    const T u2 = s.u_t[0] * s.u_t[0] + s.u_t[1] * s.u_t[1] + s.u_t[2] * s.u_t[2];
+    return in_normal + 0.5 * k_n * p.shear_ratio * left * u2;
+}
+
+/// How near the bond is to failure, 0 to 1 (5.44): the larger of shear force over its limit and, in tension, e / u_f. 1 when failed.
+template <class T>
+inline T failure_criterion(const Parameters& p, const T& k_n, const T& area, const T& shortening, const T& normal, const T& shear,
+                           const State<T>& s) {
+    using std::max;
+    using std::min;
+    const T zero = T(0.0);
+    const T u_f = p.sigma_f / k_n * area * (1.0 + p.softening_n);
+    const T tension = max(s.u_p - shortening, zero) / max(u_f, T(smallest));
+    const T in_shear = shear / max(p.tau_f * area + p.mu_s * max(normal, zero), T(smallest));
+    const auto broken = (s.d_n >= T(1.0)) || (s.d_t >= T(1.0));
+    return select(broken, T(1.0), min(max(tension, in_shear), T(1.0)));
+}
+
+} // namespace proveta::dempack

@@ -1,0 +1,45 @@
+#include "core/bonds/material.hpp"
+
+#include <algorithm>
+
+namespace proveta {
+
+dempack::Parameters bond_law(const Material& material) {
+    dempack::Parameters law = material.bond;
+    law.shear_ratio = material.shear_factor / (material.normal_factor * 2.0 * (1.0 + material.poisson_ratio));
+    return law;
+}
+
+namespace {
+
+double in_series(double a, double b) { return 2.0 * a * b / (a + b); }
+double mean(double a, double b) { return 0.5 * (a + b); }
+
+} // namespace
+
+Material equivalent(const Material& a, const Material& b) {
+    Material m = a;
+    if (a.name != b.name) {
+        m.name = std::min(a.name, b.name) + "/" + std::max(a.name, b.name);
+    }
+    m.young_modulus = in_series(a.young_modulus, b.young_modulus);
+    m.poisson_ratio = mean(a.poisson_ratio, b.poisson_ratio);
+    m.normal_factor = mean(a.normal_factor, b.normal_factor);
+    m.shear_factor = mean(a.shear_factor, b.shear_factor);
+    m.local_damping = mean(a.local_damping, b.local_damping);
+    m.contact_restitution = mean(a.contact_restitution, b.contact_restitution);
+    m.area_factor = mean(a.area_factor, b.area_factor);
+    m.bond.sigma_f = std::min(a.bond.sigma_f, b.bond.sigma_f);
+    m.bond.tau_f = std::min(a.bond.tau_f, b.bond.tau_f);
+    m.bond.mu_s = std::min(a.bond.mu_s, b.bond.mu_s);
+    m.bond.mu_d = std::min(a.bond.mu_d, b.bond.mu_d);
+    m.bond.softening_n = mean(a.bond.softening_n, b.bond.softening_n);
+    m.bond.softening_t = mean(a.bond.softening_t, b.bond.softening_t);
+    for (int k = 0; k < 3; ++k) {
+        m.bond.lcs[k] = std::min(a.bond.lcs[k], b.bond.lcs[k]);
+        m.bond.yrc[k] = mean(a.bond.yrc[k], b.bond.yrc[k]);
+    }
+    return m;
+}
+
+} // namespace proveta

@@ -1,0 +1,56 @@
+// Cell search: spheres sorted into cubes so that near pairs are found in time linear in their number.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/vector_field.hpp"
+
+namespace proveta {
+
+/// A pair of spheres, i < j.
+struct Pair {
+    std::int32_t i;
+    std::int32_t j;
+    friend auto operator<=>(const Pair&, const Pair&) = default;
+};
+
+/// Items sorted into cubic cells over the box of their centres. The number of cells is bounded by twice the number of items (plus a
+/// constant), whatever the extent, by widening the cells; so a stray sphere far away costs no memory.
+class CellGrid {
+  public:
+    /// positions: centres in m; width: wished edge of a cell in m, positive.
+    CellGrid(const VectorField& positions, double width);
+
+    /// Calls visit(j) for every item in the 27 cells around the cell of item i, i itself included, in a fixed order.
+    template <class Visit> void near(std::size_t i, Visit&& visit) const {
+        const auto c = cell_of_[i];
+        for (std::int64_t z = c[2] - 1; z <= c[2] + 1; ++z) {
+            for (std::int64_t y = c[1] - 1; y <= c[1] + 1; ++y) {
+                for (std::int64_t x = c[0] - 1; x <= c[0] + 1; ++x) {
+                    if (x < 0 || y < 0 || z < 0 || x >= count_[0] || y >= count_[1] || z >= count_[2]) {
+                        continue;
+                    }
+                    const auto cell = static_cast<std::size_t>((z * count_[1] + y) * count_[0] + x);
+                    for (auto k = offset_[cell]; k < offset_[cell + 1]; ++k) {
+                        visit(items_[k]);
+                    }
+                }
+            }
+        }
+    }
+
+  private:
+    std::array<std::int64_t, 3> count_{1, 1, 1};
+    std::vector<std::array<std::int32_t, 3>> cell_of_;
+    std::vector<std::uint32_t> offset_;
+    std::vector<std::uint32_t> items_;
+};
+
+/// All pairs i < j with centre distance at most factor (R_i + R_j) + gap, sorted by (i, j).
+/// positions and radii in m; gap in m.
+std::vector<Pair> find_pairs(const VectorField& positions, const std::vector<double>& radii, double factor, double gap);
+
+} // namespace proveta

@@ -1,0 +1,342 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "core/input/json.hpp"
+#include "core/input/suggest.hpp"
+#include "core/input/units.hpp"
+
+namespace proveta::input {
+
+namespace {
+
+// A JSON value as a short text for messages.
+std::string shown(const Json& j) {
+    std::string text = j.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (text.size() > 60) {
+        text = text.substr(0, 57) + "...";
+    }
+    return fmt::format("{} {}", j.type_name(), text);
+}
+
+std::string names(const std::vector<Choice>& choices) {
+    std::vector<std::string> out;
+    for (const auto& c : choices) {
+        out.push_back('"' + c.name + '"');
+    }
+    return fmt::format("{}", fmt::join(out, ", "));
+}
+
+std::string nearest_choice(const std::string& word, const std::vector<Choice>& choices) {
+    std::vector<std::string> out;
+    for (const auto& c : choices) {
+        out.push_back(c.name);
+    }
+    const std::string best = nearest(word, out);
+    return best.empty() ? "" : fmt::format("did you mean \"{}\"?", best);
+}
+
+std::string expected_quantity(Unit unit, const Bounds& bounds) {
+    const auto units = accepted_units(unit);
+    const std::string example = unit == Unit::none ? "" : fmt::format(" (a number in {}, or a text with one of {})", si_unit(unit), fmt::join(units, ", "));
+    const std::string range = bounds.text();
+    return (range == "any number" ? range : "a number " + range) + (unit == Unit::none ? "" : " " + si_unit(unit)) + example;
+}
+
+} // namespace
+
+std::string Problem::text() const {
+    std::string out = source;
+    if (!path.empty()) {
+        out += (out.empty() ? "" : ": ") + path;
+    }
+    out += fmt::format(": found {}; expected {}", found, expected);
+    if (!suggestion.empty()) {
+        out += "; " + suggestion;
+    }
+    return out;
+}
+
+namespace {
+
+std::string all_problems(const Problems& list) {
+    std::string out;
+    for (const auto& p : list) {
+        out += (out.empty() ? "" : "\n") + p.text();
+    }
+    return out;
+}
+
+} // namespace
+
+InputError::InputError(Problems list) : std::runtime_error(all_problems(list)), problems(std::move(list)) {}
+
+Json load_json(const std::string& file) {
+    namespace fs = std::filesystem;
+    constexpr std::uintmax_t largest = 16u << 20;
+    std::error_code error;
+    auto fail = [&](const std::string& found, const std::string& expected, const std::string& hint = "") {
+        throw InputError({{file, "", found, expected, hint}});
+    };
+    if (!fs::exists(file, error)) {
+        fail("no such file", "a JSON file");
+    }
+    if (fs::is_directory(file, error)) {
+        fail("a folder", "a JSON file");
+    }
+    if (fs::is_regular_file(file, error) && fs::file_size(file, error) > largest) {
+        fail("a file of more than 16 MiB", "a JSON file of a few kilobytes");
+    }
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+        fail("a file that cannot be read", "a readable JSON file");
+    }
+    std::string text;
+    char buffer[65536];
+    while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
+        text.append(buffer, static_cast<std::size_t>(in.gcount()));
+        if (text.size() > largest) {
+            fail("more than 16 MiB", "a JSON file of a few kilobytes");
+        }
+    }
+    if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+        fail("an empty file", "a JSON object", "the smallest complete deck is { \"test\": \"ucs\" }");
+    }
+    int depth = 0;
+    auto guard = [&](int level, Json::parse_event_t, Json&) {
+        depth = std::max(depth, level);
+        if (depth > 64) {
+            fail("more than 64 nested levels", "a flat JSON object");
+        }
+        return true;
+    };
+    Json json;
+    try {
+        json = Json::parse(text, guard);
+    } catch (const Json::exception& e) {
+        std::string what = e.what();
+        if (const auto at = what.find("] "); at != std::string::npos) {
+            what = what.substr(at + 2);
+        }
+        std::replace_if(what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
+        fail("text that is not JSON: " + what, "valid JSON",
+             text.find("NaN") != std::string::npos ? "JSON has no NaN; leave the key out to get its default" : "");
+    }
+    if (!json.is_object()) {
+        fail(shown(json), "a JSON object");
+    }
+    return json;
+}
+
+JsonReader::JsonReader(const Json& json, std::string source, std::string path, Problems& problems)
+    : source_(std::move(source)), problems_(problems) {
+    frames_.push_back({&json, std::move(path), {}});
+    if (!json.is_object()) {
+        complain(frames_.back().path, shown(json), "an object");
+        frames_.back().json = nullptr;
+    }
+}
+
+void JsonReader::complain(const std::string& path, const std::string& found, const std::string& expected,
+                          const std::string& suggestion) {
+    problems_.push_back({source_, path, found, expected, suggestion});
+}
+
+const Json* JsonReader::find(const char* key) {
+    Frame& frame = frames_.back();
+    frame.known.emplace_back(key);
+    if (frame.json == nullptr) {
+        return nullptr;
+    }
+    const auto it = frame.json->find(key);
+    return it == frame.json->end() ? nullptr : &*it;
+}
+
+bool JsonReader::to_number(const Json& j, const std::string& path, Unit unit, const Bounds& bounds, double& value) {
+    double x = 0.0;
+    if (j.is_number()) {
+        x = j.get<double>();
+    } else if (j.is_string()) {
+        const Quantity q = parse_quantity(j.get<std::string>(), unit);
+        if (!q.problem.empty()) {
+            complain(path, shown(j) + ", " + q.problem, expected_quantity(unit, bounds));
+            return false;
+        }
+        x = q.value;
+    } else {
+        complain(path, shown(j), expected_quantity(unit, bounds));
+        return false;
+    }
+    if (!std::isfinite(x) || !bounds.contains(x)) {
+        complain(path, shown(j), expected_quantity(unit, bounds));
+        return false;
+    }
+    value = x;
+    return true;
+}
+
+void JsonReader::number(const char* key, double& value, Unit unit, const Bounds& bounds, const char*) {
+    if (const Json* j = find(key)) {
+        to_number(*j, frames_.back().path + "/" + key, unit, bounds, value);
+    }
+}
+
+void JsonReader::number_or_word(const char* key, NumberOrWord& value, const std::vector<Choice>& words, Unit unit, const Bounds& bounds,
+                                const char*) {
+    const Json* j = find(key);
+    if (j == nullptr) {
+        return;
+    }
+    const std::string path = frames_.back().path + "/" + key;
+    if (j->is_string()) {
+        const auto text = j->get<std::string>();
+        const bool is_word = std::any_of(words.begin(), words.end(), [&](const Choice& c) { return c.name == text; });
+        if (is_word) {
+            value = {0.0, text};
+            return;
+        }
+        if (!parse_quantity(text, unit).problem.empty()) {
+            complain(path, shown(*j), fmt::format("{}, or {}", names(words), expected_quantity(unit, bounds)), nearest_choice(text, words));
+            return;
+        }
+    }
+    double x = 0.0;
+    if (to_number(*j, path, unit, bounds, x)) {
+        value = {x, ""};
+    }
+}
+
+void JsonReader::integer(const char* key, std::int64_t& value, std::int64_t low, std::int64_t high, const char*) {
+    const Json* j = find(key);
+    if (j == nullptr) {
+        return;
+    }
+    const double x = j->is_number() ? j->get<double>() : std::nan("");
+    if (!(x == std::floor(x)) || !(x >= static_cast<double>(low)) || !(x <= static_cast<double>(high))) {
+        complain(frames_.back().path + "/" + key, shown(*j), fmt::format("a whole number from {} to {}", low, high));
+        return;
+    }
+    value = j->is_number_integer() ? j->get<std::int64_t>() : static_cast<std::int64_t>(x);
+}
+
+void JsonReader::text(const char* key, std::string& value, const char*) {
+    const Json* j = find(key);
+    if (j == nullptr) {
+        return;
+    }
+    if (!j->is_string()) {
+        complain(frames_.back().path + "/" + key, shown(*j), "a text");
+        return;
+    }
+    value = j->get<std::string>();
+}
+
+void JsonReader::choice(const char* key, std::string& value, const std::vector<Choice>& choices, const char*) {
+    const Json* j = find(key);
+    if (j == nullptr) {
+        return;
+    }
+    const std::string text = j->is_string() ? j->get<std::string>() : "";
+    if (!j->is_string() || std::none_of(choices.begin(), choices.end(), [&](const Choice& c) { return c.name == text; })) {
+        complain(frames_.back().path + "/" + key, shown(*j), "one of " + names(choices), nearest_choice(text, choices));
+        return;
+    }
+    value = text;
+}
+
+void JsonReader::numbers(const char* key, std::vector<double>& values, std::size_t count, Unit unit, const Bounds& bounds, const char*) {
+    const Json* j = find(key);
+    if (j == nullptr) {
+        return;
+    }
+    const std::string path = frames_.back().path + "/" + key;
+    if (!j->is_array() || j->size() != count) {
+        complain(path, shown(*j), fmt::format("a list of {} numbers", count));
+        return;
+    }
+    std::vector<double> read(count);
+    bool good = true;
+    for (std::size_t k = 0; k < count; ++k) {
+        good = to_number((*j)[k], fmt::format("{}/{}", path, k), unit, bounds, read[k]) && good;
+    }
+    if (good) {
+        values = read;
+    }
+}
+
+void JsonReader::refused(const char* key, const char* reason) {
+    if (const Json* j = find(key)) {
+        complain(frames_.back().path + "/" + key, shown(*j), "no such key here", reason);
+    }
+    frames_.back().known.pop_back();
+    if (frames_.back().json != nullptr && frames_.back().json->contains(key)) {
+        frames_.back().known.emplace_back(key);    // complained about once already
+    }
+}
+
+bool JsonReader::begin_section(const char* key, const char*) {
+    const Json* j = find(key);
+    if (j == nullptr) {
+        return false;
+    }
+    const std::string path = frames_.back().path + "/" + key;
+    if (!j->is_object()) {
+        complain(path, shown(*j), "an object");
+        return false;
+    }
+    frames_.push_back({j, path, {}});
+    return true;
+}
+
+void JsonReader::report_unknown() {
+    const Frame& frame = frames_.back();
+    if (frame.json == nullptr) {
+        return;
+    }
+    for (const auto& [key, value] : frame.json->items()) {
+        if (std::find(frame.known.begin(), frame.known.end(), key) != frame.known.end()) {
+            continue;
+        }
+        const std::string best = nearest(key, frame.known);
+        complain(frame.path + "/" + key.substr(0, 80), "an unknown key", fmt::format("one of {}", fmt::join(frame.known, ", ")),
+                 best.empty() ? "" : fmt::format("did you mean \"{}\"?", best));
+    }
+}
+
+void JsonReader::end_section() {
+    report_unknown();
+    frames_.pop_back();
+}
+
+void JsonReader::finish() { report_unknown(); }
+
+std::optional<std::size_t> JsonReader::begin_list(const char* key, std::size_t, const char*) {
+    const Json* j = find(key);
+    if (j == nullptr) {
+        return std::nullopt;
+    }
+    const std::string path = frames_.back().path + "/" + key;
+    if (!j->is_array() || j->size() > 10000) {
+        complain(path, shown(*j), "a list of objects");
+        return std::nullopt;
+    }
+    frames_.push_back({j, path, {}});
+    return j->size();
+}
+
+void JsonReader::begin_item(std::size_t k) {
+    const Frame& list = frames_.back();
+    const Json& item = (*list.json)[k];
+    const std::string path = fmt::format("{}/{}", list.path, k);
+    if (!item.is_object()) {
+        complain(path, shown(item), "an object");
+    }
+    frames_.push_back({item.is_object() ? &item : nullptr, path, {}});
+}
+
+void JsonReader::end_list() { frames_.pop_back(); }
+
+} // namespace proveta::input

@@ -1,0 +1,181 @@
+#include "core/model.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace proveta {
+
+namespace {
+
+template <class... Parts> std::string text(const Parts&... parts) {
+    std::ostringstream out;
+    out.precision(4);
+    (out << ... << parts);
+    return out.str();
+}
+
+} // namespace
+
+UnstableStep::UnstableStep(double asked_step, double stable_step)
+    : std::runtime_error(text("the time step of ", asked_step, " s is above the stable one of ", stable_step, " s")),
+      asked(asked_step), stable(stable_step) {}
+
+Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> weight, std::vector<Platen> boundary,
+             const Numerics& numerics)
+    : spheres(std::move(s)), materials(std::move(m)), bonds(std::move(b)), platens(std::move(boundary)), weight_(std::move(weight)),
+      numerics_(numerics), bound_(spheres, bonds) {
+    const double mean_radius =
+        std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / std::max<double>(1.0, static_cast<double>(spheres.size()));
+    skin_ = numerics_.skin * mean_radius;
+    reactions_.assign(platens.size(), Vec3::Zero());
+    travel_ = 2.0 * skin_;    // makes the first search happen
+    search();
+    dt_ = numerics_.safety * stable_;
+    if (numerics_.time_step) {
+        dt_ = *numerics_.time_step;
+        if (dt_ > stable_) {
+            throw UnstableStep(dt_, stable_);
+        }
+    }
+}
+
+void Model::step(const std::vector<double>& speeds, bool measure) {
+    search();
+    forces(measure);
+    motion(speeds, measure);
+    time_ += dt_;
+    ++steps_;
+}
+
+// Lists neighbours anew once two spheres, or a sphere and a platen, may have come nearer by more than the skin.
+void Model::search() {
+    if (2.0 * travel_ <= skin_) {
+        return;
+    }
+    if (searches_ > 0) {
+        // The sum of the fastest speeds is a coarse bound; look at what really moved before paying for a search.
+        double farthest = 0.0;
+        for (std::size_t k = 0; k < spheres.size(); ++k) {
+            farthest = std::max(farthest, (spheres.position.at(k) - searched_at_.at(k)).squaredNorm());
+        }
+        farthest = std::sqrt(farthest);
+        for (std::size_t p = 0; p < platens.size(); ++p) {
+            farthest = std::max(farthest, std::fabs(platens[p].position - platens_at_[p]));
+        }
+        travel_ = farthest;
+        if (2.0 * travel_ <= skin_) {
+            return;
+        }
+    }
+    contacts = search_contacts(spheres, bonds, materials, weight_, skin_, contacts);
+    platens_at_.resize(platens.size());
+    for (std::size_t p = 0; p < platens.size(); ++p) {
+        search_platen(spheres, materials, skin_, platens[p]);
+        platens_at_[p] = platens[p].position;
+    }
+    searched_at_ = spheres.position;
+    travel_ = 0.0;
+    ++searches_;
+    stable_ = bound_.limit(spheres, bonds, contacts, platens);
+    if (dt_ > stable_) {
+        dt_ = numerics_.safety * stable_;    // new contacts have made the network stiffer
+    }
+}
+
+void Model::forces(bool measure) {
+    failures_.clear();
+    const BondDissipation lost = bond_forces(spheres, bonds, dt_, measure, failures_);
+    broken_ += failures_.size();
+    ledger_.damage += lost.damage;
+    ledger_.plastic += lost.plastic;
+    ledger_.friction += lost.friction;
+    ledger_.dashpots += lost.dashpot;
+
+    const ContactEnergies in_contacts = contact_forces(spheres, contacts, dt_);
+    ledger_.friction += in_contacts.friction;
+    ledger_.dashpots += in_contacts.dashpot;
+    double stored = in_contacts.stored;
+
+    for (std::size_t p = 0; p < platens.size(); ++p) {
+        Platen& platen = platens[p];
+        const PlatenEnergies at_platen = platen_forces(spheres, platen, dt_);
+        ledger_.friction += at_platen.friction;
+        ledger_.dashpots += at_platen.dashpot;
+        stored += at_platen.stored;
+        // The platen pushes back with -reaction while it moves by velocity dt.
+        ledger_.platens -= 0.5 * (platen.reaction.z() + reactions_[p].z()) * platen.velocity * dt_;
+        reactions_[p] = platen.reaction;
+    }
+    if (measure) {
+        ledger_.elastic = std::accumulate(bonds.stored.begin(), bonds.stored.end(), stored);
+    }
+}
+
+void Model::motion(const std::vector<double>& speeds, bool measure) {
+    const MotionSums sums = move_spheres(spheres, bonds, contacts, numerics_.damping, dt_, measure);
+    double fastest = sums.fastest;
+    for (std::size_t p = 0; p < platens.size(); ++p) {
+        platens[p].move(speeds[p], dt_);
+        fastest = std::max(fastest, std::fabs(speeds[p]));
+    }
+    travel_ += fastest * dt_;
+    fastest_ = fastest;
+    ledger_.background += sums.damping_work;
+    if (measure) {
+        ledger_.kinetic = sums.kinetic;
+        double forces = 0.0;
+        for (std::size_t b = 0; b < bonds.size(); ++b) {
+            forces += 2.0 * std::hypot(bonds.normal[b], bonds.shear[b]);    // on each of two spheres
+        }
+        measures_.unbalanced_ratio = forces > 0.0 ? sums.unbalanced / forces : 0.0;
+        check();
+    }
+}
+
+void Model::check() const {
+    const double sane = 0.1 * skin_ / numerics_.skin / dt_;    // a tenth of a radius a step
+    if (!std::isfinite(ledger_.spent()) || !std::isfinite(fastest_) || fastest_ > sane) {
+        throw NumericalFailure(text("at step ", steps_, " (time ", time_, " s) the calculation diverged: fastest sphere ", fastest_,
+                                    " m/s, energy ", ledger_.spent(), " J"));
+    }
+}
+
+void Model::restored() {
+    const std::size_t n = contacts.i.size();
+    contacts.normal.assign(n, 0.0);
+    contacts.forces.resize(n);
+    contacts.incidence = make_incidence(spheres.size(), contacts.i, contacts.j);
+    broken_ = bonds.size() - static_cast<std::size_t>(std::count(bonds.mode.begin(), bonds.mode.end(), std::uint8_t{0}));
+    failures_.clear();
+}
+
+std::uint64_t Model::state_hash() const {
+    std::uint64_t hash = 1469598103934665603ull;
+    auto mix = [&](std::uint64_t word) {
+        for (int byte = 0; byte < 8; ++byte) {
+            hash = (hash ^ ((word >> (8 * byte)) & 0xffu)) * 1099511628211ull;
+        }
+    };
+    auto all = [&](const std::vector<double>& values) {
+        for (const double v : values) {
+            mix(std::bit_cast<std::uint64_t>(v));
+        }
+    };
+    for (const auto* f : {&spheres.position, &spheres.velocity, &spheres.spin, &bonds.slip, &contacts.slip}) {
+        all(f->x);
+        all(f->y);
+        all(f->z);
+    }
+    for (const auto* a : {&bonds.plastic, &bonds.damage_n, &bonds.damage_t, &bonds.damage_work}) {
+        all(*a);
+    }
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+        mix(static_cast<std::uint64_t>(contacts.i[k]) << 32 | static_cast<std::uint32_t>(contacts.j[k]));
+    }
+    return hash;
+}
+
+} // namespace proveta

@@ -1,0 +1,164 @@
+// The calculation itself: spheres, bonds, contacts and platens, stepped through time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/bonds/bond_forces.hpp"
+#include "core/bonds/bonds.hpp"
+#include "core/boundaries/platen.hpp"
+#include "core/contacts/contacts.hpp"
+#include "core/energy/ledger.hpp"
+#include "core/motion/motion.hpp"
+#include "core/motion/stable_step.hpp"
+#include "core/particles/spheres.hpp"
+
+namespace proveta {
+
+/// How the calculation is carried out.
+struct Numerics {
+    std::optional<double> time_step;    ///< s; empty: safety times the stable step
+    double safety = 0.9;                ///< fraction of the bound on the stable step
+    double skin = 0.1;                  ///< of the neighbour lists, over the mean radius
+    BackgroundDamping damping;
+};
+
+/// What `Model::step(true)` measured besides the ledger; values at the time of the last forces.
+struct StepMeasures {
+    double unbalanced_ratio = 0.0;    ///< mean over spheres of |sum of forces| over the mean of the sum of |bond force|
+};
+
+/// The step that a user asked for is above the stable one.
+struct UnstableStep : std::runtime_error {
+    UnstableStep(double asked_step, double stable_step);
+    double asked, stable;    ///< s
+};
+
+/// The calculation lost its footing: a quantity stopped being a number or left all bounds.
+struct NumericalFailure : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A specimen with its boundaries. Public members are the state; the class keeps the step in order.
+class Model {
+  public:
+    /// Takes spheres (at rest), their materials and bonds. weight: area weights of `make_bonds`. Throws UnstableStep.
+    Model(Spheres spheres, std::vector<Material> materials, Bonds bonds, std::vector<double> weight, std::vector<Platen> platens,
+          const Numerics& numerics);
+
+    /// One step: search, forces, motion, time. speeds: velocity of each platen during the step, m/s. With `measure` the ledger's stored
+    /// and kinetic terms, the bonds' output arrays and the measures are brought up to date.
+    void step(const std::vector<double>& speeds, bool measure);
+
+    [[nodiscard]] double dt() const { return dt_; }                     ///< s
+    [[nodiscard]] double stable_step() const { return stable_; }        ///< bound at the last search, s
+    [[nodiscard]] double time() const { return time_; }                 ///< s
+    [[nodiscard]] std::int64_t steps() const { return steps_; }
+    [[nodiscard]] const Ledger& ledger() const { return ledger_; }
+    [[nodiscard]] const StepMeasures& measures() const { return measures_; }
+    [[nodiscard]] const std::vector<BondFailure>& failures() const { return failures_; }    ///< of the last step, in bond order
+    [[nodiscard]] std::size_t broken() const { return broken_; }
+    [[nodiscard]] std::int64_t searches() const { return searches_; }
+
+    /// Hash (FNV-1a, 64 bits) of positions, velocities, spins and all bond and contact states: equal if and only if the bits are.
+    [[nodiscard]] std::uint64_t state_hash() const;
+
+    /// Calls visit(name, value) for everything that a later step depends on and that set-up does not give back: doubles, integers and
+    /// vectors of them. Used to store and to restore.
+    template <class Visit> void visit_state(Visit&& visit);
+
+    /// Rebuilds what follows from the state, after `visit_state` has restored it.
+    void restored();
+
+    Spheres spheres;
+    std::vector<Material> materials;
+    Bonds bonds;
+    Contacts contacts;
+    std::vector<Platen> platens;
+
+  private:
+    void search();
+    void forces(bool measure);
+    void motion(const std::vector<double>& speeds, bool measure);
+    void check() const;
+
+    std::vector<double> weight_;
+    Numerics numerics_;
+    StepBound bound_;
+    double skin_ = 0.0;
+    double travel_ = 0.0;             // bound on how far anything has moved since the last search, m
+    VectorField searched_at_;         // positions then
+    std::vector<double> platens_at_;
+    double dt_ = 0.0;
+    double stable_ = 0.0;
+    double time_ = 0.0;
+    std::int64_t steps_ = 0;
+    std::int64_t searches_ = 0;
+    std::size_t broken_ = 0;
+    double fastest_ = 0.0;
+    Ledger ledger_;
+    StepMeasures measures_;
+    std::vector<BondFailure> failures_;
+    std::vector<Vec3> reactions_;     // of the platens at the last forces, for the trapezoidal work
+};
+
+template <class Visit> void Model::visit_state(Visit&& visit) {
+    auto field = [&](const std::string& name, VectorField& f) {
+        visit(name + "_x", f.x);
+        visit(name + "_y", f.y);
+        visit(name + "_z", f.z);
+    };
+    field("position", spheres.position);
+    field("velocity", spheres.velocity);
+    field("spin", spheres.spin);
+    field("searched_at", searched_at_);
+    field("bond_slip", bonds.slip);
+    visit("bond_plastic", bonds.plastic);
+    visit("bond_damage_n", bonds.damage_n);
+    visit("bond_damage_t", bonds.damage_t);
+    visit("bond_damage_work", bonds.damage_work);
+    visit("bond_mode", bonds.mode);
+    visit("contact_i", contacts.i);
+    visit("contact_j", contacts.j);
+    visit("contact_distance", contacts.contact_distance);
+    visit("contact_stiffness", contacts.stiffness);
+    visit("contact_shear_stiffness", contacts.shear_stiffness);
+    visit("contact_dashpot", contacts.dashpot);
+    visit("contact_friction", contacts.friction);
+    visit("contact_share_i", contacts.forces.share_i);
+    field("contact_slip", contacts.slip);
+    for (std::size_t p = 0; p < platens.size(); ++p) {
+        const std::string name = "platen_" + std::to_string(p) + "_";
+        Platen& platen = platens[p];
+        visit(name + "position", platen.position);
+        visit(name + "velocity", platen.velocity);
+        visit(name + "searched_at", platens_at_[p]);
+        visit(name + "sphere", platen.sphere);
+        visit(name + "contact_distance", platen.contact_distance);
+        visit(name + "stiffness", platen.stiffness);
+        visit(name + "shear_stiffness", platen.shear_stiffness);
+        visit(name + "slip_x", platen.slip_x);
+        visit(name + "slip_y", platen.slip_y);
+        visit(name + "reaction_x", reactions_[p].x());
+        visit(name + "reaction_y", reactions_[p].y());
+        visit(name + "reaction_z", reactions_[p].z());
+    }
+    visit("travel", travel_);
+    visit("dt", dt_);
+    visit("stable", stable_);
+    visit("time", time_);
+    visit("steps", steps_);
+    visit("searches", searches_);
+    visit("fastest", fastest_);
+    for (auto [name, value] :
+         {std::pair{"platens", &ledger_.platens}, {"elastic", &ledger_.elastic}, {"kinetic", &ledger_.kinetic},
+          {"damage", &ledger_.damage}, {"plastic", &ledger_.plastic}, {"friction", &ledger_.friction},
+          {"dashpots", &ledger_.dashpots}, {"background", &ledger_.background}}) {
+        visit(std::string("ledger_") + name, *value);
+    }
+}
+
+} // namespace proveta

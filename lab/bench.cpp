@@ -1,0 +1,112 @@
+#include "lab/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+#include "core/geometry/hilbert.hpp"
+#include "core/input/units.hpp"
+
+namespace proveta {
+
+Spheres make_spheres(const Specimen& specimen, const Deck& deck, std::vector<Material>& materials) {
+    materials = {to_material(deck.material.values)};
+    for (const auto& region : deck.regions) {
+        materials.push_back(to_material(region.material.values));
+    }
+    Spheres s;
+    for (const auto k : hilbert_order(specimen.spheres.centre)) {
+        const Vec3 at = specimen.spheres.centre.at(k);
+        int material = 0;
+        int group = specimen.group[k];
+        for (std::size_t r = 0; r < deck.regions.size(); ++r) {
+            const auto& box = deck.regions[r];
+            bool inside = true;
+            for (int c = 0; c < 3; ++c) {
+                const auto axis = static_cast<std::size_t>(c);
+                inside = inside && at[c] >= std::min(box.from[axis], box.to[axis]) && at[c] <= std::max(box.from[axis], box.to[axis]);
+            }
+            if (inside) {
+                material = static_cast<int>(r) + 1;
+                group = static_cast<int>(box.group);
+            }
+        }
+        s.add(at, specimen.spheres.radius[k], materials[static_cast<std::size_t>(material)].density, group, material);
+        s.id.back() = static_cast<std::int64_t>(k);
+    }
+    return s;
+}
+
+std::uint64_t hash_of(const Specimen& specimen) {
+    std::uint64_t hash = 1469598103934665603ull;
+    for (const auto* values : {&specimen.spheres.centre.x, &specimen.spheres.centre.y, &specimen.spheres.centre.z, &specimen.spheres.radius}) {
+        for (const double v : *values) {
+            const auto word = std::bit_cast<std::uint64_t>(v);
+            for (int byte = 0; byte < 8; ++byte) {
+                hash = (hash ^ ((word >> (8 * byte)) & 0xffu)) * 1099511628211ull;
+            }
+        }
+    }
+    return hash;
+}
+
+Bench set_up(const Deck& deck, Specimen specimen) {
+    Bench bench;
+    bench.specimen = std::move(specimen);
+    bench.statistics = statistics(bench.specimen);
+    bench.specimen_hash = hash_of(bench.specimen);
+    auto fail = [&](const std::string& path, const std::string& found, const std::string& expected, const std::string& hint = "") {
+        throw input::InputError({{deck.source, path, found, expected, hint}});
+    };
+
+    std::vector<Material> materials;
+    Spheres spheres = make_spheres(bench.specimen, deck, materials);
+    // Skin flags belong to the specimen's order; bring them into the model's.
+    const auto flags = skin_spheres(bench.specimen);
+    for (const auto id : spheres.id) {
+        bench.skin.push_back(flags[static_cast<std::size_t>(id)]);
+    }
+
+    const bool automatic = deck.bonding.interaction_range.word == "auto";
+    std::vector<Pair> pairs;
+    try {
+        pairs = bonded_pairs(spheres, {deck.bonding.interaction_range.number, automatic ? deck.bonding.coordination : 0.0}, bench.beta);
+    } catch (const std::runtime_error& e) {
+        fail("/bonding/coordination", fmt::format("{:.4g}; {}", deck.bonding.coordination, e.what()), "a coordination that the packing can have",
+             fmt::format("the specimen has {} spheres with {:.3g} touching neighbours each", spheres.size(), bench.statistics.touching));
+    }
+    if (pairs.empty()) {
+        fail("/bonding", "no bonds at all", "an interaction range that bonds neighbours");
+    }
+    bench.coordination = 2.0 * static_cast<double>(pairs.size()) / static_cast<double>(spheres.size());
+    std::vector<double> weight;
+    Bonds bonds = make_bonds(spheres, materials, pairs, bench.skin, weight);
+    bench.partition = partition(bench.specimen.shape, spheres, bonds);
+    bench.wave_speed = std::sqrt(materials.front().normal_factor * materials.front().young_modulus / materials.front().density);
+
+    auto platens = deck.protocol->platens(spheres, bench.specimen.shape);
+    for (const auto& p : platens) {
+        if (std::none_of(p.capped.begin(), p.capped.end(), [](double d) { return d > 0.0; })) {
+            fail("/specimen", fmt::format("no sphere at the end z = {:.4g} m", p.position), "a specimen whose ends meet the platens",
+                 "import it with its true height");
+        }
+    }
+    Numerics numerics;
+    if (deck.numerics.time_step.word.empty()) {
+        numerics.time_step = deck.numerics.time_step.number;
+    }
+    numerics.safety = deck.numerics.safety;
+    numerics.skin = deck.numerics.skin;
+    numerics.damping = {deck.numerics.damping_translation, deck.numerics.damping_rotation};
+    try {
+        bench.model = std::make_unique<Model>(std::move(spheres), std::move(materials), std::move(bonds), std::move(weight),
+                                              std::move(platens), numerics);
+    } catch (const UnstableStep& e) {
+        fail("/numerics/time_step", input::format_quantity(e.asked, input::Unit::time),
+             fmt::format("at most the stable step of {}", input::format_quantity(e.stable, input::Unit::time)), "leave it out to get the largest safe step");
+    }
+    return bench;
+}
+
+} // namespace proveta

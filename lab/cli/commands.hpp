@@ -1,0 +1,24 @@
+// The program's commands. Each adds itself to the command line and sets `run` when it is chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace proveta {
+
+/// What the chosen command does; returns the exit code.
+using Command = std::function<int()>;
+
+void add_run(CLI::App& app, const std::string& typed, Command& chosen);
+void add_check(CLI::App& app, Command& chosen);
+void add_describe(CLI::App& app, Command& chosen);
+void add_schema(CLI::App& app, Command& chosen);
+void add_specimen(CLI::App& app, Command& chosen);
+
+/// Exit codes: the user's input, the calculation, an interrupt.
+constexpr int exit_input = 2;
+constexpr int exit_calculation = 3;
+constexpr int exit_interrupted = 130;
+
+} // namespace proveta

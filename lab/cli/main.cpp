@@ -1,0 +1,58 @@
+// proveta: a virtual materials laboratory.
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <new>
+
+#include "core/input/json.hpp"
+#include "lab/cli/commands.hpp"
+#include "lab/provenance.hpp"
+
+namespace {
+
+int guarded(const proveta::Command& command) {
+    try {
+        return command();
+    } catch (const proveta::input::InputError& e) {
+        for (const auto& problem : e.problems) {
+            spdlog::error("{}", problem.text());
+        }
+        return proveta::exit_input;
+    } catch (const std::bad_alloc&) {
+        spdlog::error("not enough memory for this specimen; ask for fewer spheres");
+        return proveta::exit_calculation;
+    } catch (const std::exception& e) {
+        spdlog::error("{}", e.what());
+        return proveta::exit_calculation;
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_color_mt("proveta"));
+    spdlog::set_pattern("%^%l%$: %v");
+
+    std::string typed = "proveta";
+    for (int k = 1; k < argc; ++k) {
+        typed += std::string(" ") + argv[k];
+    }
+    CLI::App app{"Proveta, a virtual materials laboratory: makes a specimen out of bonded spheres, puts it in the press and breaks it.", "proveta"};
+    app.set_version_flag("--version", proveta::version_text());
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the calculation failed, 130 interrupted.");
+    proveta::Command chosen;
+    proveta::add_run(app, typed, chosen);
+    proveta::add_check(app, chosen);
+    proveta::add_describe(app, chosen);
+    proveta::add_schema(app, chosen);
+    proveta::add_specimen(app, chosen);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : proveta::exit_input;
+    }
+    return guarded(chosen);
+}

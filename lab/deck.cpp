@@ -1,0 +1,174 @@
+#include "lab/deck.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/input/suggest.hpp"
+#include "lab/protocols/registry.hpp"
+
+namespace proveta {
+
+using input::above;
+using input::at_least;
+using input::between;
+using input::Json;
+using input::Unit;
+
+void declare(input::Visitor& v, MaterialRegion& r) {
+    v.numbers("from", r.from, 3, Unit::length, input::any_number(), "corner of a box, x y z; the axis is z, the base z = 0");
+    v.numbers("to", r.to, 3, Unit::length, input::any_number(), "opposite corner");
+    v.integer("group", r.group, 0, 1000000, "cohesive group of the spheres inside; only spheres of one group are bonded");
+    v.section("material", r.material, "material of the spheres inside");
+}
+
+void declare(input::Visitor& v, BondingInput& b) {
+    v.number_or_word("interaction_range", b.interaction_range, {{"auto", "found so that the mean coordination is met"}}, Unit::none,
+                     between(0, 1), "beta: spheres are bonded when their distance is at most (1 + beta)(R_i + R_j)");
+    v.number("coordination", b.coordination, Unit::none, {0.0, 30.0, true, false}, "mean number of bonds a sphere, when interaction_range is \"auto\"");
+}
+
+void declare(input::Visitor& v, NumericsInput& n) {
+    v.number_or_word("time_step", n.time_step, {{"auto", "safety times the bound on the stable step"}}, Unit::time, above(0), "time step; one above the stable step is refused");
+    v.number("safety", n.safety, Unit::none, {0.0, 1.0, true, false}, "fraction of the bound on the stable step");
+    v.number("damping_translation", n.damping_translation, Unit::none, {0.0, 1.0, false, true}, "alpha_t of the non-viscous background damping (5.18)");
+    v.number("damping_rotation", n.damping_rotation, Unit::none, {0.0, 1.0, false, true}, "alpha_r of the non-viscous background damping (5.19)");
+    v.number("skin", n.skin, Unit::none, between(0.01, 2), "skin of the neighbour lists over the mean radius; changes speed, not results");
+}
+
+void declare(input::Visitor& v, OutputInput& o) {
+    v.integer("samples", o.samples, 10, 1000000, "rows of curve.csv over the whole strain range");
+    v.integer("fields", o.fields, 0, 10000, "VTK field files over the whole strain range; 0: none");
+    v.number("checkpoint_every", o.checkpoint_every, Unit::time, at_least(0), "wall time between checkpoints; 0: only at the end");
+}
+
+void declare(input::Visitor& v, Deck& d) {
+    v.choice("test", d.test, test_choices(), "the laboratory test");
+    v.text("title", d.title, "title of the report");
+    v.section("specimen", d.specimen, "the specimen: made by a recipe, or taken from a file");
+    v.section("bonding", d.bonding, "which spheres are bonded");
+    v.section("material", d.material, "the material: a card and what to change in it");
+    v.list("regions", d.regions, "boxes of the specimen with another material or cohesive group; later ones win");
+    v.section("loading", *d.protocol, "the loading, as the test has it");
+    v.section("numerics", d.numerics, "how the calculation is carried out");
+    v.section("output", d.output, "what is written");
+}
+
+Deck read_deck(const Json& given, const std::string& file) {
+    Json json = given;
+    input::Problems problems;
+    Deck deck;
+    deck.source = file;
+    deck.folder = std::filesystem::absolute(file).parent_path().string();
+    if (json.contains("proveta_manifest")) {
+        json = json.contains("deck") ? json["deck"] : Json::object();
+    }
+    if (!json.is_object() || !json.contains("test")) {
+        problems.push_back({file, "/test", "no test", fmt::format("one of {}", fmt::join(test_names(), ", ")),
+                            "the smallest complete deck is { \"test\": \"ucs\" }"});
+    }
+    const std::string test = json.is_object() && json.contains("test") && json["test"].is_string() ? json["test"].get<std::string>() : "";
+    deck.protocol = make_protocol(test);
+    if (!deck.protocol) {
+        deck.protocol = make_protocol(test_names().front());    // to read the rest; the name itself is complained about below
+    }
+    // The cards come first: the deck's other keys override them.
+    if (json.is_object()) {
+        preload(json.contains("material") ? json["material"] : Json::object(), deck.material, deck.folder, file, "/material", problems);
+        if (json.contains("regions") && json["regions"].is_array() && json["regions"].size() <= 10000) {
+            deck.regions.resize(json["regions"].size());
+            for (std::size_t k = 0; k < deck.regions.size(); ++k) {
+                const Json& region = json["regions"][k];
+                const Json material = region.is_object() && region.contains("material") ? region["material"] : Json::object();
+                preload(material, deck.regions[k].material, deck.folder, file, fmt::format("/regions/{}/material", k), problems);
+            }
+        }
+    }
+    input::read(json, deck, file, "", problems);
+    check_recipe(deck.specimen, file, "/specimen", problems);
+    check_card(deck.material.values, file, "/material", problems);
+    for (std::size_t k = 0; k < deck.regions.size(); ++k) {
+        check_card(deck.regions[k].material.values, file, fmt::format("/regions/{}/material", k), problems);
+    }
+    if (problems.empty()) {
+        deck.protocol->check(deck.specimen, file, "/loading", problems);
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+    if (deck.title.empty()) {
+        deck.title = deck.protocol->about().title;
+    }
+    return deck;
+}
+
+void apply_settings(Json& json, const std::vector<std::string>& settings) {
+    input::Problems problems;
+    for (const auto& setting : settings) {
+        const auto equals = setting.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            problems.push_back({"--set", "", "\"" + setting + "\"", "key=value, such as loading.rate=0.02", ""});
+            continue;
+        }
+        std::string path = setting.substr(0, equals);
+        const std::string text = setting.substr(equals + 1);
+        Json value = Json::parse(text, nullptr, false);
+        if (value.is_discarded()) {
+            value = text;
+        }
+        Json* at = &json;
+        std::size_t start = 0;
+        while (at != nullptr) {
+            const auto dot = path.find('.', start);
+            const std::string key = path.substr(start, dot - start);
+            if (!at->is_object() && !at->is_null()) {
+                problems.push_back({"--set", "", "\"" + setting + "\"", "a key inside an object", ""});
+                break;
+            }
+            if (dot == std::string::npos) {
+                (*at)[key] = value;
+                break;
+            }
+            at = &(*at)[key];
+            start = dot + 1;
+        }
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+}
+
+Json resolved(const Deck& deck) {
+    input::JsonWriter writer;
+    // Visitors take what they visit by reference; writing changes nothing.
+    declare(static_cast<input::Visitor&>(writer), const_cast<Deck&>(deck));
+    Json json = writer.take();
+    json["material"]["card"] = custom_card;
+    for (auto& region : json["regions"]) {
+        region["material"]["card"] = custom_card;
+    }
+    if (!deck.specimen.file.empty()) {
+        json["specimen"] = {{"file", std::filesystem::absolute(std::filesystem::path(deck.folder) / deck.specimen.file).lexically_normal().string()}};
+    }
+    return json;
+}
+
+Json deck_schema() {
+    Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Proveta deck"}, {"oneOf", Json::array()}};
+    for (const auto& name : test_names()) {
+        Deck deck;
+        deck.test = name;
+        deck.protocol = make_protocol(name);
+        input::Problems ignored;
+        preload(Json::object(), deck.material, "", "", "", ignored);
+        input::SchemaWriter writer;
+        declare(static_cast<input::Visitor&>(writer), deck);
+        Json one = writer.take();
+        one["properties"]["test"] = {{"const", name}};
+        one["required"] = {"test"};
+        schema["oneOf"].push_back(one);
+    }
+    return schema;
+}
+
+} // namespace proveta

@@ -1,0 +1,27 @@
+// Pictures and fields of a specimen in the press.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lab/bench.hpp"
+#include "reports/record/record.hpp"
+#include "reports/vtk.hpp"
+
+namespace proveta {
+
+/// Number of the fragment that each sphere belongs to: connected by unfailed bonds, numbered by size, 0 the largest.
+std::vector<int> fragments(const Model& model);
+
+/// Spheres with radius, displacement, velocity, Love-Weber stress (compression positive: xx, yy, zz, xy, yz, zx), damage (share of its
+/// bonds that failed), fragment, group and material. The model's last step must have measured.
+report::Geometry sphere_fields(const Bench& bench);
+/// Bonds as lines with mode (0 intact, 1 tension, 2 shear), damage, failure criterion state, normal (compression positive) and shear force.
+report::Geometry bond_fields(const Bench& bench);
+/// The platens as polygons.
+report::Geometry platen_fields(const Bench& bench);
+
+/// A vertical slice of one sphere diameter through the axis: spheres shaded by how far they moved sideways, failed bonds as strokes.
+report::Picture slice(const Bench& bench, const std::string& title);
+
+} // namespace proveta

@@ -1,0 +1,137 @@
+#include "lab/instruments.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace proveta {
+
+Instruments::Instruments(const Bench& bench) {
+    const Shape& shape = bench.specimen.shape;
+    const Spheres& s = bench.model->spheres;
+    height_ = shape.height;
+    section_ = shape.section();
+    inner_ = shape.inner(0.6, 0.6);
+    // Middle gauge: as long as the specimen is wide, at most half its height, between two bands of three mean radii.
+    const double length = std::min(shape.lateral_size(), 0.5 * shape.height);
+    const double half_band = 1.5 * bench.statistics.mean_radius;
+    const auto fill = [&](Band& band, double z) {
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            if (std::fabs(s.start.z[k] - z) <= half_band) {
+                band.spheres.push_back(k);
+                band.height += s.start.z[k];
+            }
+        }
+        band.height /= std::max<double>(1.0, static_cast<double>(band.spheres.size()));
+    };
+    fill(lower_, 0.5 * (shape.height - length));
+    fill(upper_, 0.5 * (shape.height + length));
+    // Circumferential gauge: skin spheres within a sixth of the height about the middle.
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        const Vec3 p = s.start.at(k);
+        const bool at_side = shape.depth_below_side(p) < 1.2 * s.radius[k];
+        if (at_side && std::fabs(p.z() - 0.5 * shape.height) <= shape.height / 12.0) {
+            girth_.push_back(k);
+            girth_radius_.push_back(std::hypot(p.x(), p.y()));
+        }
+    }
+}
+
+double Instruments::mean_rise(const Model& model, const Band& band) {
+    double sum = 0.0;
+    for (const auto k : band.spheres) {
+        sum += model.spheres.position.z[k] - model.spheres.start.z[k];
+    }
+    return sum / std::max<double>(1.0, static_cast<double>(band.spheres.size()));
+}
+
+double Instruments::nominal_strain(const Model& model) const {
+    return 1.0 - (model.platens[1].position - model.platens[0].position) / height_;
+}
+
+Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) {
+    Mat3 sum = Mat3::Zero();
+    const Bonds& b = model.bonds;
+    const auto add = [&](std::size_t i, std::size_t j, const Vec3& force) {
+        const Vec3 at_i = model.spheres.position.at(i);
+        const Vec3 at_j = model.spheres.position.at(j);
+        const double inside = region.fraction_inside(at_i, at_j);
+        if (inside > 0.0) {
+            sum -= inside * force * (at_j - at_i).transpose();    // force on i: compression pushes it against the branch
+        }
+    };
+    for (std::size_t k = 0; k < b.size(); ++k) {
+        add(static_cast<std::size_t>(b.i[k]), static_cast<std::size_t>(b.j[k]), b.forces.force.at(k));
+    }
+    const Contacts& c = model.contacts;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+        add(static_cast<std::size_t>(c.i[k]), static_cast<std::size_t>(c.j[k]), c.forces.force.at(k));
+    }
+    const Mat3 mean = sum / region.volume();
+    return 0.5 * (mean + mean.transpose());
+}
+
+report::Table Instruments::empty_curve() const {
+    report::Table t;
+    t.notes = {"Compression is positive in stress and strain; lateral strain is positive when the specimen gets thinner.",
+               "Stress is force over the nominal section before the test."};
+    t.columns = {{"time", "s", "time since the start of loading"},
+                 {"axial_strain", "", "closing of the platens over the height"},
+                 {"axial_stress", "Pa", "total axial stress: mean of both platens' force over the nominal section"},
+                 {"deviatoric_stress", "Pa", "axial stress minus confining pressure"},
+                 {"gauge_axial_strain", "", "shortening of the middle gauge length"},
+                 {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin"},
+                 {"volumetric_strain", "", "gauge axial strain plus twice the circumferential strain"},
+                 {"force_bottom", "N", "force on the lower platen"},
+                 {"force_top", "N", "force on the upper platen"},
+                 {"inner_stress_xx", "Pa", "Love-Weber stress averaged over the inner 60 % of diameter and height"},
+                 {"inner_stress_yy", "Pa", "the same"},
+                 {"inner_stress_zz", "Pa", "the same, axial"},
+                 {"inner_stress_xy", "Pa", "the same"},
+                 {"inner_stress_yz", "Pa", "the same"},
+                 {"inner_stress_zx", "Pa", "the same"},
+                 {"broken_bonds", "", "failed bonds so far"},
+                 {"broken_in_tension", "", "of these in tension"},
+                 {"broken_in_shear", "", "of these in shear"},
+                 {"unbalanced_ratio", "", "mean unbalanced force on a sphere over the mean sum of forces on it"}};
+    return t;
+}
+
+report::Table Instruments::empty_energy() const {
+    report::Table t;
+    t.notes = {"Energy ledger: every term is accumulated from its own mechanism, none by difference."};
+    t.columns = {{"time", "s", "time since the start of loading"},
+                 {"axial_strain", "", "closing of the platens over the height"},
+                 {"platens", "J", "work of the platens on the specimen"},
+                 {"elastic", "J", "stored in bonds and contacts"},
+                 {"kinetic", "J", "of translation and rotation"},
+                 {"damage", "J", "dissipated by damage and failure of bonds"},
+                 {"plastic", "J", "dissipated by plastic shortening of bonds"},
+                 {"friction", "J", "dissipated by sliding"},
+                 {"dashpots", "J", "dissipated by local damping"},
+                 {"background", "J", "dissipated by background damping"},
+                 {"residual", "J", "work minus all other terms"}};
+    return t;
+}
+
+void Instruments::sample(const Bench& bench, report::Table& curve, report::Table& energy) const {
+    const Model& m = *bench.model;
+    const double bottom = -m.platens[0].reaction.z();
+    const double top = m.platens[1].reaction.z();
+    const double strain = nominal_strain(m);
+    const double gauge = (mean_rise(m, lower_) - mean_rise(m, upper_)) / (upper_.height - lower_.height);
+    double girth = 0.0;
+    for (std::size_t k = 0; k < girth_.size(); ++k) {
+        girth += 1.0 - std::hypot(m.spheres.position.x[girth_[k]], m.spheres.position.y[girth_[k]]) / girth_radius_[k];
+    }
+    girth /= std::max<double>(1.0, static_cast<double>(girth_.size()));
+    const Mat3 inner = mean_stress(m, inner_);
+    const double stress = 0.5 * (bottom + top) / section_;
+    curve.rows.push_back({m.time(), strain, stress, stress, gauge, girth, gauge + 2.0 * girth, bottom, top, inner(0, 0), inner(1, 1),
+                          inner(2, 2), inner(0, 1), inner(1, 2), inner(2, 0), static_cast<double>(broken_tension_ + broken_shear_),
+                          static_cast<double>(broken_tension_), static_cast<double>(broken_shear_), m.measures().unbalanced_ratio});
+    const Ledger& l = m.ledger();
+    energy.rows.push_back({m.time(), strain, l.platens, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots, l.background,
+                           l.residual()});
+}
+
+} // namespace proveta

@@ -1,0 +1,49 @@
+// What is measured on a specimen in the press, the same for every test.
+#pragma once
+
+#include <vector>
+
+#include "lab/bench.hpp"
+#include "reports/record/record.hpp"
+
+namespace proveta {
+
+/// Gauges on the specimen, made once and read at every sample. Strains and stresses are compression-positive.
+class Instruments {
+  public:
+    explicit Instruments(const Bench& bench);
+
+    /// Columns of curve.csv and of energy.csv.
+    [[nodiscard]] report::Table empty_curve() const;
+    [[nodiscard]] report::Table empty_energy() const;
+
+    /// Adds a row to each table. The model's last step must have measured.
+    void sample(const Bench& bench, report::Table& curve, report::Table& energy) const;
+
+    /// Nominal axial strain from the platens' travel; cheap.
+    [[nodiscard]] double nominal_strain(const Model& model) const;
+
+    /// Counts a failed bond.
+    void count(FailureMode mode) { ++(mode == FailureMode::tension ? broken_tension_ : broken_shear_); }
+
+    /// Love-Weber stress averaged over an inner region, Pa: (1/V) sum of force times branch, each branch with its fraction inside.
+    [[nodiscard]] static Mat3 mean_stress(const Model& model, const Shape::Region& region);
+
+  private:
+    struct Band {
+        std::vector<std::size_t> spheres;
+        double height = 0.0;    ///< mean z at the start, m
+    };
+    [[nodiscard]] static double mean_rise(const Model& model, const Band& band);
+
+    double height_ = 0.0;
+    double section_ = 0.0;
+    Band lower_, upper_;                      // ends of the middle gauge
+    std::vector<std::size_t> girth_;          // lateral skin at mid-height
+    std::vector<double> girth_radius_;        // their distance from the axis at the start, m
+    Shape::Region inner_;
+    std::size_t broken_tension_ = 0;
+    std::size_t broken_shear_ = 0;
+};
+
+} // namespace proveta

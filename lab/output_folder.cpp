@@ -1,0 +1,53 @@
+#include "lab/output_folder.hpp"
+
+#include <unistd.h>
+
+#include "core/input/json.hpp"
+
+namespace proveta {
+
+namespace fs = std::filesystem;
+
+OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
+    const auto refuse = [&](const std::string& found, const std::string& expected) {
+        throw input::InputError({{"--out", "", "\"" + path.string() + "\", " + found, expected, ""}});
+    };
+    std::error_code error;
+    for (fs::path p = fs::absolute(path); !p.empty() && !fs::exists(p, error) && p != p.root_path(); p = p.parent_path()) {
+        first_made_ = p;
+    }
+    if (fs::exists(path, error) && !fs::is_directory(path, error)) {
+        refuse("which is a file", "a folder");
+    }
+    fs::create_directories(path, error);
+    if (error) {
+        const std::string why = error.message();
+        if (!first_made_.empty()) {
+            fs::remove_all(first_made_, error);
+        }
+        refuse("which cannot be made: " + why, "a folder that can be written");
+    }
+    if (access(path.c_str(), W_OK | X_OK) != 0) {
+        refuse("which cannot be written", "a folder that can be written");
+    }
+    if (!fs::is_empty(path, error) && !fs::exists(path / "manifest.json", error)) {
+        refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
+    }
+}
+
+OutputFolder::~OutputFolder() {
+    if (!begun_ && !first_made_.empty()) {
+        std::error_code ignored;
+        fs::remove_all(first_made_, ignored);
+    }
+}
+
+void OutputFolder::begin() {
+    begun_ = true;
+    for (const char* name : {"report.html", "summary.json", "manifest.json", "curve.csv", "events.csv", "energy.csv", "checkpoint.h5",
+                             "series.pvd", "fields"}) {
+        fs::remove_all(path_ / name);
+    }
+}
+
+} // namespace proveta

@@ -1,0 +1,31 @@
+// The folder that a run writes into.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace proveta {
+
+/// Claims a folder for a result. It must be new, empty, or hold an earlier result, which is cleared only by `begin`. A folder made here
+/// and never begun is taken away again, so that a refused run leaves nothing behind.
+class OutputFolder {
+  public:
+    /// Throws InputError when the folder cannot be used, saying why.
+    explicit OutputFolder(const std::filesystem::path& path);
+    ~OutputFolder();
+    OutputFolder(const OutputFolder&) = delete;
+    OutputFolder& operator=(const OutputFolder&) = delete;
+
+    /// Clears an earlier result and keeps the folder.
+    void begin();
+
+    [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    std::filesystem::path first_made_;    // topmost folder that did not exist before
+    bool begun_ = false;
+};
+
+} // namespace proveta

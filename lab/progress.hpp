@@ -1,0 +1,35 @@
+// How long work shows that it lives: a line that rewrites itself on a terminal, a line every few seconds otherwise.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace proveta {
+
+class Progress {
+  public:
+    explicit Progress(bool quiet);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// Shows a text, unless one was shown only just before.
+    void show(const std::string& text);
+    /// Ends the line on a terminal, so that a log line can follow.
+    void end_line();
+
+    /// "1 min 20 s"
+    static std::string duration(double seconds);
+
+  private:
+    bool quiet_;
+    bool terminal_;
+    std::size_t shown_ = 0;
+    std::chrono::steady_clock::time_point next_;
+};
+
+/// Ctrl-C and SIGTERM ask the calculation to end at its next sample; a second one ends the program at once.
+void catch_interrupts();
+bool interrupted();
+
+} // namespace proveta

@@ -1,0 +1,76 @@
+#include "lab/quasi_static.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/derived.hpp"
+
+namespace proveta {
+
+namespace {
+
+constexpr double most_imbalance = 0.02;
+constexpr double most_kinetic = 0.01;
+constexpr double most_unbalanced = 0.01;
+constexpr double most_residual = 0.01;
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
+
+std::string against(double found, double allowed) { return fmt::format("{} (allowed {})", percent(found), percent(allowed)); }
+
+} // namespace
+
+report::Badge quasi_static_verdict(const report::Table& curve, const report::Table& energy) {
+    report::Badge badge{"Quasi-static loading", false, "", {}};
+    const auto stress = curve.values("axial_stress");
+    const auto bottom = curve.values("force_bottom");
+    const auto top = curve.values("force_top");
+    const auto ratio = curve.values("unbalanced_ratio");
+    const auto kinetic = energy.values("kinetic");
+    const auto elastic = energy.values("elastic");
+    const std::size_t peak = peak_index(stress);
+    const auto first = stress.empty() ? std::nullopt : first_reaching(stress, 0.2 * stress[peak], peak);
+    if (!first || *first == peak) {
+        badge.verdict = "too few samples before the peak to judge";
+        return badge;
+    }
+    double imbalance = 0.0;
+    double motion = 0.0;
+    double unbalanced = 0.0;
+    for (std::size_t k = *first; k <= peak; ++k) {
+        imbalance = std::max(imbalance, std::fabs(bottom[k] - top[k]) / std::max(std::fabs(0.5 * (bottom[k] + top[k])), 1e-300));
+        motion = std::max(motion, kinetic[k] / std::max(elastic[k], 1e-300));
+        unbalanced = std::max(unbalanced, ratio[k]);
+    }
+    badge.good = imbalance <= most_imbalance && motion <= most_kinetic && unbalanced <= most_unbalanced;
+    badge.verdict = badge.good ? "yes" : "no: load more slowly, or read the strength as a dynamic one";
+    badge.figures = {{"difference of the platens' forces over their mean, worst", against(imbalance, most_imbalance)},
+                     {"kinetic over elastic energy, worst", against(motion, most_kinetic)},
+                     {"unbalanced force ratio, worst", against(unbalanced, most_unbalanced)},
+                     {"judged", "from 20 % of the peak stress to the peak"}};
+    return badge;
+}
+
+report::Badge energy_verdict(const report::Table& energy) {
+    report::Badge badge{"Energy balance", false, "", {}};
+    if (energy.rows.empty()) {
+        badge.verdict = "no samples";
+        return badge;
+    }
+    const auto work = energy.values("platens");
+    const auto residual = energy.values("residual");
+    double worst = 0.0;
+    for (std::size_t k = 0; k < work.size(); ++k) {
+        if (std::fabs(work[k]) > 0.01 * std::fabs(work.back())) {
+            worst = std::max(worst, std::fabs(residual[k] / work[k]));
+        }
+    }
+    badge.good = worst <= most_residual;
+    badge.verdict = badge.good ? "closed" : "not closed: the time step is too large or the calculation lost its footing";
+    badge.figures = {{"residual over the platens' work, worst", against(worst, most_residual)}};
+    return badge;
+}
+
+} // namespace proveta

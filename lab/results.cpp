@@ -1,0 +1,241 @@
+#include "lab/results.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <cmath>
+
+#include "core/input/units.hpp"
+#include "lab/derived.hpp"
+#include "lab/provenance.hpp"
+#include "lab/quasi_static.hpp"
+
+namespace proveta {
+
+namespace {
+
+// Values for people: pressures in MPa or GPa, the rest as they are.
+report::Scalar readable(report::Scalar s) {
+    if (s.unit == "Pa" && s.value) {
+        const bool giga = std::fabs(*s.value) >= 1e9;
+        s.value = *s.value / (giga ? 1e9 : 1e6);
+        s.unit = giga ? "GPa" : "MPa";
+    }
+    return s;
+}
+
+report::Plot plot(const report::Table& t, const std::string& title, const std::string& x, double x_scale, const std::string& x_title,
+                  const std::vector<std::tuple<std::string, std::string, std::string>>& ys, double y_scale, const std::string& y_title) {
+    report::Plot p{title, x_title, y_title, {}, {}};
+    for (const auto& [column, curve_name, colour] : ys) {
+        report::Curve c{curve_name, t.values(x), t.values(column), colour};
+        for (double& v : c.x) {
+            v *= x_scale;
+        }
+        for (double& v : c.y) {
+            v *= y_scale;
+        }
+        p.curves.push_back(std::move(c));
+    }
+    return p;
+}
+
+std::vector<report::Plot> plots(const TestData& data) {
+    report::Plot main = plot(data.curve, "Axial stress against strain; the mark is the peak.", "axial_strain", 100.0, "axial strain [%]",
+                             {{"axial_stress", "platens", "#1f4e79"}}, 1e-6, "axial stress [MPa]");
+    report::Curve gauge = main.curves.front();
+    gauge.name = "middle gauge";
+    gauge.colour = "#1e7b46";
+    report::Curve girth = gauge;
+    girth.name = "circumferential";
+    girth.colour = "#b9770e";
+    gauge.x = data.curve.values("gauge_axial_strain");
+    girth.x = data.curve.values("circumferential_strain");
+    // Past the peak strain runs into cracks and gauges no longer tell the material's strain.
+    const std::size_t peak = peak_index(main.curves.front().y);
+    for (auto* c : {&gauge, &girth}) {
+        c->x.resize(std::min(c->x.size(), peak + 1));
+        c->y.resize(c->x.size());
+        for (double& v : c->x) {
+            v *= 100.0;
+        }
+    }
+    if (!main.curves.front().y.empty()) {
+        main.marks.emplace_back(main.curves.front().x[peak], main.curves.front().y[peak]);
+    }
+    main.curves.push_back(gauge);
+    main.curves.push_back(girth);
+    return {main,
+            plot(data.curve, "Failed bonds.", "axial_strain", 100.0, "axial strain [%]",
+                 {{"broken_in_tension", "in tension", "#c0392b"}, {"broken_in_shear", "in shear", "#d68910"}}, 1.0, "failed bonds"),
+            plot(data.energy, "Where the work of the platens went.", "axial_strain", 100.0, "axial strain [%]",
+                 {{"platens", "work of platens", "#111111"},
+                  {"elastic", "elastic", "#1f4e79"},
+                  {"damage", "damage", "#c0392b"},
+                  {"plastic", "plastic", "#7d3c98"},
+                  {"friction", "friction", "#b9770e"},
+                  {"background", "background damping", "#1e7b46"},
+                  {"kinetic", "kinetic", "#0e8a93"}},
+                 1.0, "energy [J]")};
+}
+
+report::TextTable ledger_table(const report::Table& energy) {
+    report::TextTable t{"Energy ledger at the end", {{"Term", "J", "What it is"}}};
+    for (std::size_t k = 2; k < energy.columns.size() && !energy.rows.empty(); ++k) {
+        t.rows.push_back({energy.columns[k].name, fmt::format("{:.4g}", energy.rows.back()[k]), energy.columns[k].meaning});
+    }
+    return t;
+}
+
+report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
+    const auto& s = bench.statistics;
+    const auto& shape = bench.specimen.shape;
+    const std::string size = shape.kind == ShapeKind::cylinder
+                                 ? fmt::format("cylinder {:.4g} x {:.4g} mm", 1e3 * shape.diameter, 1e3 * shape.height)
+                                 : fmt::format("prism {:.4g} x {:.4g} x {:.4g} mm", 1e3 * shape.width, 1e3 * shape.depth, 1e3 * shape.height);
+    return {"Specimen and material",
+            {{"Quantity", "Value"},
+             {"Shape", size},
+             {"Spheres", fmt::format("{}, mean radius {:.3f} mm, relative deviation {:.1f} %", s.spheres, 1e3 * s.mean_radius, 100 * s.relative_deviation)},
+             {"Porosity", fmt::format("{:.2f} % (overlaps counted twice)", 100 * s.porosity)},
+             {"Bonds", fmt::format("{}, mean coordination {:.2f}, interaction range beta = {:.4f}", bench.model->bonds.size(), bench.coordination, bench.beta)},
+             {"Bond areas over the section", fmt::format("{:.4f} (whole), {:.4f} (interior); sum(A d)/V = {:.3f}", bench.partition.section, bench.partition.interior, bench.partition.filling)},
+             {"Fabric deviator", fmt::format("{:.4f}", s.fabric_deviator)},
+             {"Largest overlap", fmt::format("{:.3f} of the smaller radius", s.largest_overlap)},
+             {"Material", fmt::format("{}: {}", deck.material.values.name, deck.material.values.about)},
+             {"Source of the material", fmt::format("{} (status: {})", deck.material.values.source, deck.material.values.status)}}};
+}
+
+report::TextTable standards_table(const ProtocolInfo& info) {
+    report::TextTable t{"What of the standards is mimicked", {{"Standard", "Mimicked", "Not mimicked"}}};
+    for (const auto& s : info.standards) {
+        t.rows.push_back({s.name, s.mimics, s.cannot});
+    }
+    return t;
+}
+
+report::TextTable provenance_table(const Deck& deck, const Bench& bench) {
+    return {"Provenance",
+            {{"What", "Value"},
+             {"Program", fmt::format("Proveta {}, {}, {}", version(), PROVETA_COMPILER, bond_kernel_name())},
+             {"Deck", deck.source},
+             {"Specimen", fmt::format("seed {}, hash {}", deck.specimen.seed, hex(bench.specimen_hash))},
+             {"Steps", fmt::format("{} of {:.4g} s (stable step at least {:.4g} s)", bench.model->steps(), bench.model->dt(), bench.model->stable_step())},
+             {"Final state", hex(bench.model->state_hash())},
+             {"To repeat", "proveta run manifest.json --out NEW_FOLDER"},
+             {"Written", now_utc()}}};
+}
+
+} // namespace
+
+report::Table event_table(const std::vector<FailureEvent>& events) {
+    report::Table t;
+    t.notes = {"One row a failed bond, in the order of failure. mode: 1 tension, 2 shear."};
+    t.columns = {{"time", "s", "time since the start of loading"},
+                 {"axial_strain", "", "nominal strain at the failure"},
+                 {"x", "m", "middle of the bond"},
+                 {"y", "m", "the same"},
+                 {"z", "m", "the same"},
+                 {"mode", "", "1 tension, 2 shear"},
+                 {"energy", "J", "dissipated by the bond's damage, from first softening to failure"}};
+    for (const auto& e : events) {
+        t.rows.push_back({e.time, e.axial_strain, e.position.x(), e.position.y(), e.position.z(), static_cast<double>(e.mode), e.energy});
+    }
+    return t;
+}
+
+report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::string& status) {
+    const auto info = deck.protocol->about();
+    report::Record r;
+    r.title = deck.title;
+    r.subtitle = fmt::format("{}, {}", info.title, deck.material.values.name);
+    r.status = status;
+    r.stopped_by = data.stopped_by;
+    if (!data.curve.rows.empty()) {
+        r.results = deck.protocol->results(data.curve, data.energy);
+        r.plots = plots(data);
+    }
+    r.badges = {quasi_static_verdict(data.curve, data.energy), energy_verdict(data.energy)};
+    if (status == "interrupted") {
+        r.warnings.emplace_back("This result is partial: the run was interrupted.");
+    } else if (status == "failed") {
+        r.warnings.push_back("This result is partial: " + data.stopped_by + ".");
+    }
+    for (const auto& badge : r.badges) {
+        if (!badge.good) {
+            r.warnings.push_back(badge.name + ": " + badge.verdict + ".");
+        }
+    }
+    if (std::fabs(bench.partition.section - 1.0) > 0.015) {
+        r.warnings.push_back(fmt::format("The bond areas make up {:.3f} of the section: stiffness and strength are off by as much "
+                                         "(card's area rule: {}).",
+                                         bench.partition.section, deck.material.values.area_rule));
+    }
+    if (bench.statistics.outside > 0) {
+        r.warnings.push_back(fmt::format("{} spheres reach beyond the specimen's nominal surface.", bench.statistics.outside));
+    }
+    if (deck.material.values.status == "provisional") {
+        r.warnings.push_back("The material card is provisional: " + deck.material.values.about + ".");
+    }
+    r.pictures = data.pictures;
+    r.tables = {ledger_table(data.energy), specimen_table(deck, bench), standards_table(info), provenance_table(deck, bench)};
+    return r;
+}
+
+input::Json summary(const report::Record& r, const Bench& bench, double seconds) {
+    input::Json j;
+    j["title"] = r.title;
+    j["status"] = r.status;
+    j["stopped_by"] = r.stopped_by;
+    for (const auto& s : r.results) {
+        j["results"][s.name] = {{"value", s.value ? input::Json(*s.value) : input::Json()}, {"unit", s.unit}, {"formula", s.formula}};
+    }
+    for (const auto& b : r.badges) {
+        input::Json figures;
+        for (const auto& [what, figure] : b.figures) {
+            figures[what] = figure;
+        }
+        j["verdicts"][b.name] = {{"good", b.good}, {"verdict", b.verdict}, {"figures", figures}};
+    }
+    j["warnings"] = r.warnings;
+    const auto& s = bench.statistics;
+    j["specimen"] = {{"spheres", s.spheres},
+                     {"mean_radius_m", s.mean_radius},
+                     {"relative_deviation", s.relative_deviation},
+                     {"porosity", s.porosity},
+                     {"bonds", bench.model->bonds.size()},
+                     {"coordination", bench.coordination},
+                     {"interaction_range", bench.beta},
+                     {"section_of_bond_areas", bench.partition.section},
+                     {"interior_section_of_bond_areas", bench.partition.interior},
+                     {"area_filling", bench.partition.filling},
+                     {"fabric_deviator", s.fabric_deviator},
+                     {"largest_overlap", s.largest_overlap}};
+    j["steps"] = bench.model->steps();
+    j["time_step_s"] = bench.model->dt();
+    j["final_state_hash"] = hex(bench.model->state_hash());
+    j["wall_time_of_loading_s"] = seconds;
+    j["threads"] = omp_get_max_threads();
+    return j;
+}
+
+std::string as_text(const report::Record& r) {
+    std::string out = fmt::format("{} ({}): {}\n", r.title, r.status, r.stopped_by);
+    for (const auto& s : r.results) {
+        const auto shown = readable(s);
+        out += shown.value ? fmt::format("  {:<28} {:>10.5g} {}\n", shown.title, *shown.value, shown.unit)
+                           : fmt::format("  {:<28} not determined\n", shown.title);
+    }
+    for (const auto& b : r.badges) {
+        out += fmt::format("  {}: {}\n", b.name, b.verdict);
+        for (const auto& [what, figure] : b.figures) {
+            out += fmt::format("    {}: {}\n", what, figure);
+        }
+    }
+    for (const auto& w : r.warnings) {
+        out += fmt::format("  warning: {}\n", w);
+    }
+    return out;
+}
+
+} // namespace proveta

@@ -1,0 +1,24 @@
+// From the data of a test to what is reported.
+#pragma once
+
+#include <string>
+
+#include "core/input/json.hpp"
+#include "lab/test_run.hpp"
+#include "reports/record/record.hpp"
+
+namespace proveta {
+
+/// events.csv.
+report::Table event_table(const std::vector<FailureEvent>& events);
+
+/// Everything that the page shows.
+report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::string& status);
+
+/// summary.json.
+input::Json summary(const report::Record& record, const Bench& bench, double seconds);
+
+/// Results and verdicts for a terminal.
+std::string as_text(const report::Record& record);
+
+} // namespace proveta

@@ -1,0 +1,155 @@
+#include "materials/card.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/input/suggest.hpp"
+#include "materials/builtin_cards.hpp"
+
+namespace proveta {
+
+using input::above;
+using input::at_least;
+using input::between;
+using input::Unit;
+
+void declare(input::Visitor& v, Card& c) {
+    v.text("name", c.name, "name of the parameter set");
+    v.text("about", c.about, "what it stands for");
+    v.text("source", c.source, "where its numbers come from");
+    v.text("status", c.status, "measured, published, provisional or user");
+    v.choice("area_rule", c.area_rule,
+             {{"virtual_polyhedron", "weighted areas that partition space, thesis 5.3"},
+              {"truncated_cone", "pi R_i R_j, (5.33)"},
+              {"minimum_radius", "pi min(R_i, R_j)^2, (5.4-5.6)"}},
+             "rule for the effective area of a bond; the other numbers hold for this rule only");
+    v.number("area_factor", c.area_factor, Unit::none, above(0), "global factor alpha on all areas (5.5)");
+    v.number("density", c.density, Unit::density, above(0), "density of the spheres");
+    v.number("young_modulus", c.young_modulus, Unit::pressure, above(0), "Young's modulus E0 given to the bonds (5.34)");
+    v.number("poisson_ratio", c.poisson_ratio, Unit::none, {-1.0, 0.5, true, false}, "Poisson's ratio given to the bonds: G = E0 / (2 (1 + nu))");
+    v.number("normal_factor", c.normal_factor, Unit::none, above(0), "a in k_n = a E0 A / L (5.34)");
+    v.number("shear_factor", c.shear_factor, Unit::none, at_least(0), "b in k_t = b G A / L (5.34)");
+    v.number("strength_factor", c.strength_factor, Unit::none, above(0), "factor on sigma_f, tau_f and the LCS");
+    v.number("sigma_f", c.sigma_f, Unit::pressure, at_least(0), "tensile strength of a bond (5.21)");
+    v.number("tau_f", c.tau_f, Unit::pressure, at_least(0), "shear strength of a bond without normal force (5.21)");
+    v.number("mu_s", c.mu_s, Unit::none, between(0, 10), "internal friction of an intact bond (5.21)");
+    v.number("mu_d", c.mu_d, Unit::none, between(0, 10), "Coulomb friction after failure and of new contacts (5.2.5)");
+    v.number("softening_tension", c.softening_tension, Unit::none, between(1e-6, 1e6), "length of the softening branch in tension over the limit displacement, u_f/u_l - 1 (5.24)");
+    v.number("softening_shear", c.softening_shear, Unit::none, between(1e-6, 1e6), "the same in shear (5.24)");
+    v.numbers("lcs", c.lcs, 3, Unit::pressure, above(0), "compressive stresses LCS1 to LCS3 where the envelope changes slope (5.28)");
+    v.numbers("yrc", c.yrc, 3, Unit::none, at_least(1), "ratios YRC1 to YRC3 of the initial slope to the slope beyond each LCS (5.28)");
+    v.number("local_damping", c.local_damping, Unit::none, between(0, 1), "fraction of critical damping in each bond's normal direction (5.15)");
+    v.number("contact_restitution", c.contact_restitution, Unit::none, {0.0, 1.0, true, false}, "normal restitution of contacts between unbonded spheres (2.21)");
+}
+
+Material to_material(const Card& c) {
+    Material m;
+    m.name = c.name;
+    m.density = c.density;
+    m.young_modulus = c.young_modulus;
+    m.poisson_ratio = c.poisson_ratio;
+    m.normal_factor = c.normal_factor;
+    m.shear_factor = c.shear_factor;
+    m.local_damping = c.local_damping;
+    m.contact_restitution = c.contact_restitution;
+    m.area_factor = c.area_factor;
+    m.area_rule = c.area_rule == "minimum_radius"   ? AreaRule::minimum_radius
+                  : c.area_rule == "truncated_cone" ? AreaRule::truncated_cone
+                                                    : AreaRule::virtual_polyhedron;
+    m.bond.sigma_f = c.strength_factor * c.sigma_f;
+    m.bond.tau_f = c.strength_factor * c.tau_f;
+    m.bond.mu_s = c.mu_s;
+    m.bond.mu_d = c.mu_d;
+    m.bond.softening_n = c.softening_tension;
+    m.bond.softening_t = c.softening_shear;
+    for (std::size_t k = 0; k < 3; ++k) {
+        m.bond.lcs[k] = c.strength_factor * c.lcs[k];
+        m.bond.yrc[k] = c.yrc[k];
+    }
+    return m;
+}
+
+void check_card(const Card& c, const std::string& source, const std::string& path, input::Problems& problems) {
+    for (std::size_t k = 1; k < 3; ++k) {
+        if (c.lcs[k] <= c.lcs[k - 1]) {
+            problems.push_back({source, path + "/lcs",
+                                fmt::format("LCS{} = {:.4g} Pa after LCS{} = {:.4g} Pa", k + 1, c.lcs[k], k, c.lcs[k - 1]),
+                                "three ascending stresses", "the envelope has its corners in this order"});
+        }
+    }
+}
+
+std::vector<std::string> card_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, text] : builtin_cards()) {
+        names.emplace_back(name);
+    }
+    return names;
+}
+
+Card load_card(const std::string& name_or_file, const std::string& folder, const std::string& deck, const std::string& path) {
+    for (const auto& [name, text] : builtin_cards()) {
+        if (name_or_file == name) {
+            Card card;
+            input::Problems problems;
+            input::read(input::Json::parse(text), card, std::string("card ") + name, "", problems);
+            if (!problems.empty()) {
+                throw input::InputError(problems);
+            }
+            return card;
+        }
+    }
+    if (name_or_file == custom_card) {
+        Card card;
+        card.name = custom_card;
+        return card;
+    }
+    namespace fs = std::filesystem;
+    const fs::path file = fs::path(name_or_file).is_absolute() ? fs::path(name_or_file) : fs::path(folder) / name_or_file;
+    std::error_code error;
+    if (!fs::exists(file, error)) {
+        const std::string best = input::nearest(name_or_file, card_names());
+        throw input::InputError({{deck, path, fmt::format("\"{}\", which is neither a card of the program nor a file", name_or_file),
+                                  fmt::format("one of {}, or a JSON file", fmt::join(card_names(), ", ")),
+                                  best.empty() ? "" : fmt::format("did you mean \"{}\"?", best)}});
+    }
+    input::Problems problems;
+    const auto json = input::load_json(file.string());
+    MaterialInput material;
+    material.card = custom_card;
+    const bool based = json.contains("card") && json["card"].is_string();
+    if (based && !builtin_cards().contains(json["card"].get<std::string>())) {
+        problems.push_back({file.string(), "/card", json["card"].dump().substr(0, 60),
+                            fmt::format("one of the program's cards: {}", fmt::join(card_names(), ", ")), ""});
+    } else {
+        preload(json, material, "", file.string(), "", problems);
+    }
+    material.values.name = file.stem().string();
+    material.values.status = "user";
+    input::read(json, material, file.string(), "", problems);
+    check_card(material.values, file.string(), "", problems);
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+    return material.values;
+}
+
+void declare(input::Visitor& v, MaterialInput& material) {
+    v.text("card", material.card, "material card: a name that `proveta describe` lists, a JSON file, or \"custom\" for none; the other keys override it");
+    declare(v, material.values);
+}
+
+void preload(const input::Json& json, MaterialInput& material, const std::string& folder, const std::string& source,
+             const std::string& path, input::Problems& problems) {
+    if (json.is_object() && json.contains("card") && json["card"].is_string()) {
+        material.card = json["card"].get<std::string>();
+    }
+    try {
+        material.values = load_card(material.card, folder, source, path + "/card");
+    } catch (const input::InputError& e) {
+        problems.insert(problems.end(), e.problems.begin(), e.problems.end());
+    }
+}
+
+} // namespace proveta

@@ -1,0 +1,11 @@
+# Writes OUTPUT, a source file with the text of every card in FOLDER.
+file(GLOB cards "${FOLDER}/*.json")
+list(SORT cards)
+set(text "#include \"materials/builtin_cards.hpp\"\n\nnamespace proveta {\n\nconst std::map<std::string, std::string>& builtin_cards() {\n    static const std::map<std::string, std::string> cards{\n")
+foreach(card ${cards})
+  get_filename_component(name "${card}" NAME_WE)
+  file(READ "${card}" json)
+  string(APPEND text "        {\"${name}\", R\"card(${json})card\"},\n")
+endforeach()
+string(APPEND text "    };\n    return cards;\n}\n\n} // namespace proveta\n")
+file(WRITE "${OUTPUT}" "${text}")

@@ -1,0 +1,51 @@
+#include "reports/files.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace proveta::report {
+
+void write_file(const std::string& file, const std::string& text) {
+    const std::string partial = file + ".partial";
+    std::ofstream out(partial, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) {
+        const std::string why = std::strerror(errno);
+        std::error_code ignored;
+        std::filesystem::remove(partial, ignored);
+        throw std::runtime_error(fmt::format("{} cannot be written: {}", file, why));
+    }
+    std::filesystem::rename(partial, file);
+}
+
+std::string to_csv(const Table& table) {
+    std::string out;
+    for (const auto& note : table.notes) {
+        out += "# " + note + "\n";
+    }
+    std::string heading;
+    for (const auto& c : table.columns) {
+        out += fmt::format("# {}: {}\n", c.heading(), c.meaning);
+        heading += (heading.empty() ? "" : ",") + c.heading();
+    }
+    out += heading + "\n";
+    for (const auto& row : table.rows) {
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            out += fmt::format("{}{:.17g}", k == 0 ? "" : ",", row[k]);
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+void write_json(const std::string& file, const input::Json& json) {
+    write_file(file, json.dump(2, ' ', false, input::Json::error_handler_t::replace) + "\n");
+}
+
+} // namespace proveta::report

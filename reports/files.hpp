@@ -1,0 +1,19 @@
+// Files that are either whole or absent.
+#pragma once
+
+#include <string>
+
+#include "core/input/json.hpp"
+#include "reports/record/record.hpp"
+
+namespace proveta::report {
+
+/// Writes text to a file by way of a temporary beside it, so that a reader never sees half of it. Throws std::runtime_error.
+void write_file(const std::string& file, const std::string& text);
+
+/// A table as CSV: '#' lines with the notes and the meaning of the columns, a heading row, numbers with 17 significant digits.
+std::string to_csv(const Table& table);
+
+void write_json(const std::string& file, const input::Json& json);
+
+} // namespace proveta::report

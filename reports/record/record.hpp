@@ -1,0 +1,101 @@
+// What a run hands to the reports: plain tables, scalars with unit and formula, badges. Reports know these and no test.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace proveta::report {
+
+/// A named column with its unit, e.g. {"axial_stress", "Pa", "mean of both platens ..."}.
+struct Column {
+    std::string name;
+    std::string unit;
+    std::string meaning;
+
+    /// Heading as in the CSV files: "axial_stress_Pa".
+    [[nodiscard]] std::string heading() const { return unit.empty() ? name : name + "_" + unit; }
+};
+
+/// Rows of numbers under named columns.
+struct Table {
+    std::vector<Column> columns;
+    std::vector<std::vector<double>> rows;
+    std::vector<std::string> notes;    ///< conventions, one a line
+
+    [[nodiscard]] std::size_t column(const std::string& name) const;    ///< throws std::out_of_range
+    [[nodiscard]] std::vector<double> values(const std::string& name) const;
+};
+
+/// A derived result. Without a value it could not be determined, and `formula` says what it would have been.
+struct Scalar {
+    std::string name;
+    std::string title;
+    std::optional<double> value;
+    std::string unit;
+    std::string formula;
+};
+
+/// A judgement with its figures.
+struct Badge {
+    std::string name;
+    bool good = false;
+    std::string verdict;                                           ///< one sentence
+    std::vector<std::pair<std::string, std::string>> figures;      ///< what was found against what is allowed
+};
+
+/// A curve of a plot.
+struct Curve {
+    std::string name;
+    std::vector<double> x, y;
+    std::string colour = "#1f4e79";
+};
+
+/// A plot: curves with axis titles in the units of the page.
+struct Plot {
+    std::string title;
+    std::string x_title, y_title;
+    std::vector<Curve> curves;
+    std::vector<std::pair<double, double>> marks;    ///< points to mark
+};
+
+/// A line (bond, crack) or dot (sphere) of a specimen picture, in the plane of the cut, m.
+struct PictureDot {
+    double x, z, radius, value;    ///< value 0 to 1 colours it
+};
+struct PictureLine {
+    double x0, z0, x1, z1;
+    int mode;    ///< 1: tension, 2: shear
+};
+
+/// A cut through a specimen.
+struct Picture {
+    std::string title;
+    std::string caption;
+    double width = 0.0, height = 0.0;    ///< m
+    std::vector<PictureDot> dots;
+    std::vector<PictureLine> lines;
+};
+
+/// A table of texts with a heading.
+struct TextTable {
+    std::string title;
+    std::vector<std::vector<std::string>> rows;    ///< the first row is the heading
+};
+
+/// Everything that a page shows.
+struct Record {
+    std::string title;
+    std::string subtitle;
+    std::string status;    ///< complete, interrupted or failed
+    std::string stopped_by;
+    std::vector<Scalar> results;
+    std::vector<Badge> badges;
+    std::vector<std::string> warnings;
+    std::vector<Plot> plots;
+    std::vector<Picture> pictures;
+    std::vector<TextTable> tables;
+};
+
+} // namespace proveta::report

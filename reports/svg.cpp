@@ -1,0 +1,134 @@
+#include "reports/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace proveta::report {
+
+std::string escape(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+        case '&': out += "&amp;"; break;
+        case '<': out += "&lt;"; break;
+        case '>': out += "&gt;"; break;
+        case '"': out += "&quot;"; break;
+        case '\'': out += "&#39;"; break;
+        default: out += c;
+        }
+    }
+    return out;
+}
+
+namespace {
+
+// An axis with round ticks.
+struct Axis {
+    double low, high, tick;
+
+    Axis(double from, double to) : low(from), high(to), tick(1.0) {
+        if (!(high > low)) {
+            high = low + 1.0;
+        }
+        const double raw = (high - low) / 6.0;
+        const double power = std::pow(10.0, std::floor(std::log10(raw)));
+        const double lead = raw / power;
+        tick = power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
+        low = std::floor(low / tick + 1e-9) * tick;
+        high = std::ceil(high / tick - 1e-9) * tick;
+    }
+    [[nodiscard]] double at(double v) const { return (v - low) / (high - low); }
+};
+
+// White to blue to dark, readable in print.
+std::string shade(double t) {
+    t = std::clamp(t, 0.0, 1.0);
+    const auto mix = [t](double a, double b) { return static_cast<int>(std::lround(a + (b - a) * t)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", mix(236, 30), mix(240, 78), mix(244, 121));
+}
+
+} // namespace
+
+std::string to_svg(const Plot& plot) {
+    constexpr double width = 640;
+    constexpr double height = 380;
+    constexpr double left = 66;
+    constexpr double bottom = 48;
+    constexpr double top = 14;
+    constexpr double right = 16;
+    double x0 = 0.0;
+    double x1 = 0.0;
+    double y0 = 0.0;
+    double y1 = 0.0;
+    for (const auto& c : plot.curves) {
+        for (std::size_t k = 0; k < c.x.size(); ++k) {
+            x0 = std::min(x0, c.x[k]);
+            x1 = std::max(x1, c.x[k]);
+            y0 = std::min(y0, c.y[k]);
+            y1 = std::max(y1, c.y[k]);
+        }
+    }
+    const Axis ax(x0, x1);
+    const Axis ay(y0, y1);
+    const auto px = [&](double v) { return left + ax.at(v) * (width - left - right); };
+    const auto py = [&](double v) { return height - bottom - ay.at(v) * (height - bottom - top); };
+    std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\" "
+                                  "font-family=\"sans-serif\" font-size=\"12\">\n",
+                                  width, height, escape(plot.title));
+    for (double v = ax.low; v <= ax.high + 0.5 * ax.tick; v += ax.tick) {
+        out += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/>"
+                           "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" fill=\"#333\">{4:.4g}</text>\n",
+                           px(v), py(ay.low), py(ay.high), py(ay.low) + 16, std::fabs(v) < 1e-9 * ax.tick ? 0.0 : v);
+    }
+    for (double v = ay.low; v <= ay.high + 0.5 * ay.tick; v += ay.tick) {
+        out += fmt::format("<line x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
+                           "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5:.4g}</text>\n",
+                           py(v), px(ax.low), px(ax.high), px(ax.low) - 6, py(v) + 4, std::fabs(v) < 1e-9 * ay.tick ? 0.0 : v);
+    }
+    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (left + width - right),
+                       height - 10, escape(plot.x_title));
+    out += fmt::format("<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n",
+                       0.5 * (top + height - bottom), escape(plot.y_title));
+    double key = top + 14;
+    for (const auto& c : plot.curves) {
+        std::string points;
+        for (std::size_t k = 0; k < c.x.size(); ++k) {
+            points += fmt::format("{:.2f},{:.2f} ", px(c.x[k]), py(c.y[k]));
+        }
+        out += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" stroke-linejoin=\"round\"/>\n", points,
+                           c.colour);
+        if (plot.curves.size() > 1) {
+            out += fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"/>"
+                               "<text x=\"{4}\" y=\"{5}\" fill=\"#111\">{6}</text>\n",
+                               left + 12, key, left + 34, c.colour, left + 40, key + 4, escape(c.name));
+            key += 17;
+        }
+    }
+    for (const auto& [x, y] : plot.marks) {
+        out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"none\" stroke=\"#b03a2e\" stroke-width=\"2\"/>\n", px(x), py(y));
+    }
+    return out + "</svg>\n";
+}
+
+std::string to_svg(const Picture& p) {
+    const double scale = 1000.0;    // mm
+    const double margin = 0.06 * p.width;
+    std::string out = fmt::format("<svg viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" aria-label=\"{}\" "
+                                  "xmlns=\"http://www.w3.org/2000/svg\">\n",
+                                  -scale * (0.5 * p.width + margin), -scale * (p.height + margin), scale * (p.width + 2 * margin),
+                                  scale * (p.height + 2 * margin), escape(p.title + ". " + p.caption));
+    for (const auto& d : p.dots) {
+        out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"#9aa5b1\" stroke-width=\".15\"/>\n",
+                           scale * d.x, -scale * d.z, scale * d.radius, shade(d.value));
+    }
+    for (const auto& l : p.lines) {
+        out += fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\".9\" "
+                           "stroke-linecap=\"round\"/>\n",
+                           scale * l.x0, -scale * l.z0, scale * l.x1, -scale * l.z1, l.mode == 1 ? "#c0392b" : "#d68910");
+    }
+    return out + "</svg>\n";
+}
+
+} // namespace proveta::report

@@ -1,0 +1,24 @@
+// Radii of a packing: a bounded normal distribution or a sieve curve.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace proveta {
+
+/// A point of a sieve curve: the share of the mass that is finer than the diameter.
+struct SievePoint {
+    double diameter;    ///< m
+    double passing;     ///< 0 to 1
+};
+
+/// n radii in random order that follow a normal distribution cut at lowest and highest (over the mean) and scaled so that the mean is
+/// 1 and the relative standard deviation is `deviation`. The radii are quantiles, one from each of n equal strata, so even small
+/// samples have the right moments. Throws std::invalid_argument when the bounds leave no room for the deviation.
+std::vector<double> normal_radii(std::size_t n, double deviation, double lowest, double highest, std::uint64_t seed);
+
+/// n radii (m) in random order whose mass follows the sieve curve, linear in the diameter between its points. The curve must ascend
+/// strictly in diameter from passing 0 to passing 1.
+std::vector<double> graded_radii(std::size_t n, const std::vector<SievePoint>& curve, std::uint64_t seed);
+
+} // namespace proveta

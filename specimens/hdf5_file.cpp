@@ -1,0 +1,139 @@
+#include "specimens/hdf5_file.hpp"
+
+#include <hdf5.h>
+
+#include <stdexcept>
+
+namespace proveta {
+
+namespace {
+
+// Closes an HDF5 handle at the end of its scope.
+class Handle {
+  public:
+    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    ~Handle() {
+        if (id_ >= 0) {
+            close_(id_);
+        }
+    }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    [[nodiscard]] hid_t id() const { return id_; }
+    [[nodiscard]] bool good() const { return id_ >= 0; }
+
+  private:
+    hid_t id_;
+    herr_t (*close_)(hid_t);
+};
+
+} // namespace
+
+Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);    // failures are reported by exceptions, not on stderr
+    file_ = mode == Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
+                                 : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file_ < 0) {
+        throw std::runtime_error(path + (mode == Mode::create ? ": cannot be written" : ": missing, or not an HDF5 file"));
+    }
+}
+
+Hdf5File::~Hdf5File() {
+    if (file_ >= 0) {
+        H5Fclose(file_);
+    }
+}
+
+void Hdf5File::close() {
+    const bool good = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
+    const bool closed = H5Fclose(file_) >= 0;
+    file_ = -1;
+    if (!good || !closed) {
+        throw std::runtime_error(path_ + ": writing failed (is the disk full?)");
+    }
+}
+
+void Hdf5File::put_raw(const std::string& name, const void* data, std::size_t n, std::int64_t type, bool compress) {
+    const hsize_t size = n;
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    if (compress && n > 64) {
+        const hsize_t chunk = n < 65536 ? n : 65536;
+        H5Pset_chunk(layout.id(), 1, &chunk);
+        H5Pset_shuffle(layout.id());
+        H5Pset_deflate(layout.id(), 1);
+    }
+    const Handle set(H5Dcreate2(file_, name.c_str(), type, space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT), H5Dclose);
+    if (!set.good() || (n > 0 && H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)) {
+        throw std::runtime_error(path_ + ": " + name + " cannot be written");
+    }
+}
+
+void Hdf5File::put(const std::string& name, const std::vector<double>& v) { put_raw(name, v.data(), v.size(), H5T_NATIVE_DOUBLE, true); }
+void Hdf5File::put(const std::string& name, const std::vector<std::int32_t>& v) { put_raw(name, v.data(), v.size(), H5T_NATIVE_INT32, true); }
+void Hdf5File::put(const std::string& name, const std::vector<std::uint8_t>& v) { put_raw(name, v.data(), v.size(), H5T_NATIVE_UINT8, true); }
+void Hdf5File::put(const std::string& name, std::int64_t value) { put_raw(name, &value, 1, H5T_NATIVE_INT64, false); }
+void Hdf5File::put_text(const std::string& name, const std::string& text) {
+    put(name, std::vector<std::uint8_t>(text.begin(), text.end()));
+}
+
+bool Hdf5File::has(const std::string& name) const { return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0; }
+
+std::size_t Hdf5File::length(const std::string& name) const {
+    const Handle set(has(name) ? H5Dopen2(file_, name.c_str(), H5P_DEFAULT) : -1, H5Dclose);
+    if (!set.good()) {
+        throw std::runtime_error(path_ + ": has no \"" + name + "\"");
+    }
+    const Handle space(H5Dget_space(set.id()), H5Sclose);
+    const hssize_t n = H5Sget_simple_extent_npoints(space.id());
+    if (H5Sget_simple_extent_ndims(space.id()) != 1 || n < 0 || n > (hssize_t{1} << 31)) {
+        throw std::runtime_error(path_ + ": \"" + name + "\" has an unexpected shape");
+    }
+    return static_cast<std::size_t>(n);
+}
+
+void Hdf5File::get_raw(const std::string& name, void* data, std::size_t n, std::int64_t type) const {
+    const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.good() || (n > 0 && H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)) {
+        throw std::runtime_error(path_ + ": \"" + name + "\" cannot be read");
+    }
+}
+
+void Hdf5File::get(const std::string& name, std::vector<double>& v) const {
+    v.resize(length(name));
+    get_raw(name, v.data(), v.size(), H5T_NATIVE_DOUBLE);
+}
+
+void Hdf5File::get(const std::string& name, std::vector<std::int32_t>& v) const {
+    v.resize(length(name));
+    get_raw(name, v.data(), v.size(), H5T_NATIVE_INT32);
+}
+
+void Hdf5File::get(const std::string& name, std::vector<std::uint8_t>& v) const {
+    v.resize(length(name));
+    get_raw(name, v.data(), v.size(), H5T_NATIVE_UINT8);
+}
+
+void Hdf5File::get(const std::string& name, double& value) const {
+    std::vector<double> v;
+    get(name, v);
+    if (v.size() != 1) {
+        throw std::runtime_error(path_ + ": \"" + name + "\" is not a single number");
+    }
+    value = v.front();
+}
+
+void Hdf5File::get(const std::string& name, std::int64_t& value) const {
+    if (length(name) != 1) {
+        throw std::runtime_error(path_ + ": \"" + name + "\" is not a single number");
+    }
+    get_raw(name, &value, 1, H5T_NATIVE_INT64);
+}
+
+std::string Hdf5File::get_text(const std::string& name) const {
+    std::vector<std::uint8_t> v;
+    get(name, v);
+    return {v.begin(), v.end()};
+}
+
+} // namespace proveta

@@ -1,0 +1,90 @@
+#include "specimens/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/contacts/cell_grid.hpp"
+
+namespace proveta {
+
+SpecimenStatistics statistics(const Specimen& s) {
+    SpecimenStatistics out;
+    const auto& r = s.spheres.radius;
+    const auto n = static_cast<double>(r.size());
+    out.spheres = r.size();
+    double sum = 0.0;
+    double squares = 0.0;
+    double volume = 0.0;
+    for (std::size_t k = 0; k < r.size(); ++k) {
+        sum += r[k];
+        squares += r[k] * r[k];
+        volume += 4.0 / 3.0 * std::numbers::pi * r[k] * r[k] * r[k];
+        const Vec3 p = s.spheres.centre.at(k);
+        out.outside += s.shape.depth_below_surface(p) < r[k] * (1.0 - 1e-3) ? 1 : 0;
+        out.on_lower_end += p.z() <= 1.1 * r[k] ? 1 : 0;
+        out.on_upper_end += s.shape.height - p.z() <= 1.1 * r[k] ? 1 : 0;
+    }
+    out.mean_radius = sum / n;
+    out.relative_deviation = std::sqrt(std::max(0.0, squares / n - out.mean_radius * out.mean_radius)) / out.mean_radius;
+    out.smallest_radius = *std::min_element(r.begin(), r.end());
+    out.largest_radius = *std::max_element(r.begin(), r.end());
+    out.porosity = 1.0 - volume / s.shape.volume();
+
+    Mat3 fabric = Mat3::Zero();
+    const auto pairs = find_pairs(s.spheres.centre, r, 1.0, 0.0);
+    for (const auto& [a, b] : pairs) {
+        const auto i = static_cast<std::size_t>(a);
+        const auto j = static_cast<std::size_t>(b);
+        const Vec3 to = s.spheres.centre.at(j) - s.spheres.centre.at(i);
+        const double d = to.norm();
+        out.largest_overlap = std::max(out.largest_overlap, (r[i] + r[j] - d) / std::min(r[i], r[j]));
+        if (d > 0.0) {
+            fabric += to * to.transpose() / (d * d);
+        }
+    }
+    out.touching = 2.0 * static_cast<double>(pairs.size()) / n;
+    if (!pairs.empty()) {
+        fabric /= static_cast<double>(pairs.size());
+        const Mat3 deviator = fabric - Mat3::Identity() * (fabric.trace() / 3.0);
+        out.fabric_deviator = std::sqrt(1.5 * deviator.squaredNorm());
+    }
+    return out;
+}
+
+std::vector<std::uint8_t> skin_spheres(const Specimen& s) {
+    std::vector<std::uint8_t> skin(s.size());
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        skin[k] = s.shape.depth_below_surface(s.spheres.centre.at(k)) < 1.2 * s.spheres.radius[k] ? 1 : 0;
+    }
+    return skin;
+}
+
+Partition partition(const Shape& shape, const Spheres& spheres, const Bonds& bonds) {
+    // Averaging over cuts at every height between low and high is an integral: each bond counts with the length of its part between
+    // them, A |n_z| times |dz| over the height.
+    const double low = 0.1 * shape.height;
+    const double high = 0.9 * shape.height;
+    constexpr double inner = 0.6;
+    const Shape::Region core = shape.inner(inner, 0.8);
+    Partition out;
+    for (std::size_t b = 0; b < bonds.size(); ++b) {
+        const Vec3 i = spheres.position.at(static_cast<std::size_t>(bonds.i[b]));
+        const Vec3 j = spheres.position.at(static_cast<std::size_t>(bonds.j[b]));
+        const Vec3 to = j - i;
+        const double d = to.norm();
+        const double bottom = std::min(i.z(), j.z());
+        const double top = std::max(i.z(), j.z());
+        const double between = std::max(0.0, std::min(top, high) - std::max(bottom, low));
+        const double along = std::fabs(to.z()) / d;
+        out.section += bonds.area[b] * along * between;
+        out.interior += bonds.area[b] * along * core.fraction_inside(i, j) * std::fabs(to.z());
+        out.filling += bonds.area[b] * d;
+    }
+    out.section /= (high - low) * shape.section();
+    out.interior /= core.volume();
+    out.filling /= shape.volume();
+    return out;
+}
+
+} // namespace proveta
