@@ -20,8 +20,8 @@ template <class... Parts> std::string text(const Parts&... parts) {
 } // namespace
 
 UnstableStep::UnstableStep(double asked_step, double stable_step)
-    : std::runtime_error(text("the time step of ", asked_step, " s is above the stable one of ", stable_step, " s")),
-      asked(asked_step), stable(stable_step) {}
+    : std::runtime_error(text("the time step of ", asked_step, " s is above the stable one of ", stable_step, " s")), asked(asked_step),
+      stable(stable_step) {}
 
 Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> weight, std::vector<Platen> boundary,
              const Numerics& numerics)
@@ -31,7 +31,7 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
         std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / std::max<double>(1.0, static_cast<double>(spheres.size()));
     skin_ = numerics_.skin * mean_radius;
     reactions_.assign(platens.size(), Vec3::Zero());
-    travel_ = 2.0 * skin_;    // makes the first search happen
+    travel_ = 2.0 * skin_; // makes the first search happen
     search();
     dt_ = numerics_.safety * stable_;
     if (numerics_.time_step) {
@@ -81,7 +81,7 @@ void Model::search() {
     ++searches_;
     stable_ = bound_.limit(spheres, bonds, contacts, platens);
     if (dt_ > stable_) {
-        dt_ = numerics_.safety * stable_;    // new contacts have made the network stiffer
+        dt_ = numerics_.safety * stable_; // new contacts have made the network stiffer
     }
 }
 
@@ -128,7 +128,7 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
         ledger_.kinetic = sums.kinetic;
         double forces = 0.0;
         for (std::size_t b = 0; b < bonds.size(); ++b) {
-            forces += 2.0 * std::hypot(bonds.normal[b], bonds.shear[b]);    // on each of two spheres
+            forces += 2.0 * std::hypot(bonds.normal[b], bonds.shear[b]); // on each of two spheres
         }
         measures_.unbalanced_ratio = forces > 0.0 ? sums.unbalanced / forces : 0.0;
         check();
@@ -136,7 +136,7 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
 }
 
 void Model::check() const {
-    const double sane = 0.1 * skin_ / numerics_.skin / dt_;    // a tenth of a radius a step
+    const double sane = 0.1 * skin_ / numerics_.skin / dt_; // a tenth of a radius a step
     if (!std::isfinite(ledger_.spent()) || !std::isfinite(fastest_) || fastest_ > sane) {
         throw NumericalFailure(text("at step ", steps_, " (time ", time_, " s) the calculation diverged: fastest sphere ", fastest_,
                                     " m/s, energy ", ledger_.spent(), " J"));
@@ -146,7 +146,10 @@ void Model::check() const {
 void Model::restored() {
     const std::size_t n = contacts.i.size();
     contacts.normal.assign(n, 0.0);
-    contacts.forces.resize(n);
+    contacts.forces.assign(n, {});
+    for (std::size_t k = 0; k < n; ++k) {
+        contacts.forces[k].share_i = lever_share(spheres, contacts.i[k], contacts.j[k]);
+    }
     contacts.incidence = make_incidence(spheres.size(), contacts.i, contacts.j);
     broken_ = bonds.size() - static_cast<std::size_t>(std::count(bonds.mode.begin(), bonds.mode.end(), std::uint8_t{0}));
     failures_.clear();

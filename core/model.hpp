@@ -20,21 +20,21 @@ namespace proveta {
 
 /// How the calculation is carried out.
 struct Numerics {
-    std::optional<double> time_step;    ///< s; empty: safety times the stable step
-    double safety = 0.9;                ///< fraction of the bound on the stable step
-    double skin = 0.1;                  ///< of the neighbour lists, over the mean radius
+    std::optional<double> time_step; ///< s; empty: safety times the stable step
+    double safety = 0.9;             ///< fraction of the bound on the stable step
+    double skin = 0.1;               ///< of the neighbour lists, over the mean radius
     BackgroundDamping damping;
 };
 
 /// What `Model::step(true)` measured besides the ledger; values at the time of the last forces.
 struct StepMeasures {
-    double unbalanced_ratio = 0.0;    ///< mean over spheres of |sum of forces| over the mean of the sum of |bond force|
+    double unbalanced_ratio = 0.0; ///< mean over spheres of |sum of forces| over the mean of the sum of |bond force|
 };
 
 /// The step that a user asked for is above the stable one.
 struct UnstableStep : std::runtime_error {
     UnstableStep(double asked_step, double stable_step);
-    double asked, stable;    ///< s
+    double asked, stable; ///< s
 };
 
 /// The calculation lost its footing: a quantity stopped being a number or left all bounds.
@@ -53,13 +53,13 @@ class Model {
     /// and kinetic terms, the bonds' output arrays and the measures are brought up to date.
     void step(const std::vector<double>& speeds, bool measure);
 
-    [[nodiscard]] double dt() const { return dt_; }                     ///< s
-    [[nodiscard]] double stable_step() const { return stable_; }        ///< bound at the last search, s
-    [[nodiscard]] double time() const { return time_; }                 ///< s
+    [[nodiscard]] double dt() const { return dt_; }              ///< s
+    [[nodiscard]] double stable_step() const { return stable_; } ///< bound at the last search, s
+    [[nodiscard]] double time() const { return time_; }          ///< s
     [[nodiscard]] std::int64_t steps() const { return steps_; }
     [[nodiscard]] const Ledger& ledger() const { return ledger_; }
     [[nodiscard]] const StepMeasures& measures() const { return measures_; }
-    [[nodiscard]] const std::vector<BondFailure>& failures() const { return failures_; }    ///< of the last step, in bond order
+    [[nodiscard]] const std::vector<BondFailure>& failures() const { return failures_; } ///< of the last step, in bond order
     [[nodiscard]] std::size_t broken() const { return broken_; }
     [[nodiscard]] std::int64_t searches() const { return searches_; }
 
@@ -89,8 +89,8 @@ class Model {
     Numerics numerics_;
     StepBound bound_;
     double skin_ = 0.0;
-    double travel_ = 0.0;             // bound on how far anything has moved since the last search, m
-    VectorField searched_at_;         // positions then
+    double travel_ = 0.0;     // bound on how far anything has moved since the last search, m
+    VectorField searched_at_; // positions then
     std::vector<double> platens_at_;
     double dt_ = 0.0;
     double stable_ = 0.0;
@@ -102,7 +102,7 @@ class Model {
     Ledger ledger_;
     StepMeasures measures_;
     std::vector<BondFailure> failures_;
-    std::vector<Vec3> reactions_;     // of the platens at the last forces, for the trapezoidal work
+    std::vector<Vec3> reactions_; // of the platens at the last forces, for the trapezoidal work
 };
 
 template <class Visit> void Model::visit_state(Visit&& visit) {
@@ -128,7 +128,6 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("contact_shear_stiffness", contacts.shear_stiffness);
     visit("contact_dashpot", contacts.dashpot);
     visit("contact_friction", contacts.friction);
-    visit("contact_share_i", contacts.forces.share_i);
     field("contact_slip", contacts.slip);
     for (std::size_t p = 0; p < platens.size(); ++p) {
         const std::string name = "platen_" + std::to_string(p) + "_";
@@ -153,10 +152,14 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("steps", steps_);
     visit("searches", searches_);
     visit("fastest", fastest_);
-    for (auto [name, value] :
-         {std::pair{"platens", &ledger_.platens}, {"elastic", &ledger_.elastic}, {"kinetic", &ledger_.kinetic},
-          {"damage", &ledger_.damage}, {"plastic", &ledger_.plastic}, {"friction", &ledger_.friction},
-          {"dashpots", &ledger_.dashpots}, {"background", &ledger_.background}}) {
+    for (auto [name, value] : {std::pair{"platens", &ledger_.platens},
+                               {"elastic", &ledger_.elastic},
+                               {"kinetic", &ledger_.kinetic},
+                               {"damage", &ledger_.damage},
+                               {"plastic", &ledger_.plastic},
+                               {"friction", &ledger_.friction},
+                               {"dashpots", &ledger_.dashpots},
+                               {"background", &ledger_.background}}) {
         visit(std::string("ledger_") + name, *value);
     }
 }

@@ -40,7 +40,8 @@ Spheres make_spheres(const Specimen& specimen, const Deck& deck, std::vector<Mat
 
 std::uint64_t hash_of(const Specimen& specimen) {
     std::uint64_t hash = 1469598103934665603ull;
-    for (const auto* values : {&specimen.spheres.centre.x, &specimen.spheres.centre.y, &specimen.spheres.centre.z, &specimen.spheres.radius}) {
+    for (const auto* values :
+         {&specimen.spheres.centre.x, &specimen.spheres.centre.y, &specimen.spheres.centre.z, &specimen.spheres.radius}) {
         for (const double v : *values) {
             const auto word = std::bit_cast<std::uint64_t>(v);
             for (int byte = 0; byte < 8; ++byte) {
@@ -73,7 +74,8 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     try {
         pairs = bonded_pairs(spheres, {deck.bonding.interaction_range.number, automatic ? deck.bonding.coordination : 0.0}, bench.beta);
     } catch (const std::runtime_error& e) {
-        fail("/bonding/coordination", fmt::format("{:.4g}; {}", deck.bonding.coordination, e.what()), "a coordination that the packing can have",
+        fail("/bonding/coordination", fmt::format("{:.4g}; {}", deck.bonding.coordination, e.what()),
+             "a coordination that the packing can have",
              fmt::format("the specimen has {} spheres with {:.3g} touching neighbours each", spheres.size(), bench.statistics.touching));
     }
     if (pairs.empty()) {
@@ -104,7 +106,8 @@ Bench set_up(const Deck& deck, Specimen specimen) {
                                               std::move(platens), numerics);
     } catch (const UnstableStep& e) {
         fail("/numerics/time_step", input::format_quantity(e.asked, input::Unit::time),
-             fmt::format("at most the stable step of {}", input::format_quantity(e.stable, input::Unit::time)), "leave it out to get the largest safe step");
+             fmt::format("at most the stable step of {}", input::format_quantity(e.stable, input::Unit::time)),
+             "leave it out to get the largest safe step");
     }
     return bench;
 }

@@ -15,11 +15,11 @@ struct Bench {
     Specimen specimen;
     SpecimenStatistics statistics;
     Partition partition;
-    double beta = 0.0;            ///< interaction range used
-    double coordination = 0.0;    ///< mean number of bonds a sphere
-    double wave_speed = 0.0;      ///< sqrt(a E / rho) of the deck's material, m/s
+    double beta = 0.0;         ///< interaction range used
+    double coordination = 0.0; ///< mean number of bonds a sphere
+    double wave_speed = 0.0;   ///< sqrt(a E / rho) of the deck's material, m/s
     std::uint64_t specimen_hash = 0;
-    std::vector<std::uint8_t> skin;    ///< of the model's spheres, in its order
+    std::vector<std::uint8_t> skin; ///< of the model's spheres, in its order
     std::unique_ptr<Model> model;
 };
 

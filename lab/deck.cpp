@@ -25,14 +25,18 @@ void declare(input::Visitor& v, MaterialRegion& r) {
 void declare(input::Visitor& v, BondingInput& b) {
     v.number_or_word("interaction_range", b.interaction_range, {{"auto", "found so that the mean coordination is met"}}, Unit::none,
                      between(0, 1), "beta: spheres are bonded when their distance is at most (1 + beta)(R_i + R_j)");
-    v.number("coordination", b.coordination, Unit::none, {0.0, 30.0, true, false}, "mean number of bonds a sphere, when interaction_range is \"auto\"");
+    v.number("coordination", b.coordination, Unit::none, {0.0, 30.0, true, false},
+             "mean number of bonds a sphere, when interaction_range is \"auto\"");
 }
 
 void declare(input::Visitor& v, NumericsInput& n) {
-    v.number_or_word("time_step", n.time_step, {{"auto", "safety times the bound on the stable step"}}, Unit::time, above(0), "time step; one above the stable step is refused");
+    v.number_or_word("time_step", n.time_step, {{"auto", "safety times the bound on the stable step"}}, Unit::time, above(0),
+                     "time step; one above the stable step is refused");
     v.number("safety", n.safety, Unit::none, {0.0, 1.0, true, false}, "fraction of the bound on the stable step");
-    v.number("damping_translation", n.damping_translation, Unit::none, {0.0, 1.0, false, true}, "alpha_t of the non-viscous background damping (5.18)");
-    v.number("damping_rotation", n.damping_rotation, Unit::none, {0.0, 1.0, false, true}, "alpha_r of the non-viscous background damping (5.19)");
+    v.number("damping_translation", n.damping_translation, Unit::none, {0.0, 1.0, false, true},
+             "alpha_t of the non-viscous background damping (5.18)");
+    v.number("damping_rotation", n.damping_rotation, Unit::none, {0.0, 1.0, false, true},
+             "alpha_r of the non-viscous background damping (5.19)");
     v.number("skin", n.skin, Unit::none, between(0.01, 2), "skin of the neighbour lists over the mean radius; changes speed, not results");
 }
 
@@ -70,7 +74,7 @@ Deck read_deck(const Json& given, const std::string& file) {
     const std::string test = json.is_object() && json.contains("test") && json["test"].is_string() ? json["test"].get<std::string>() : "";
     deck.protocol = make_protocol(test);
     if (!deck.protocol) {
-        deck.protocol = make_protocol(test_names().front());    // to read the rest; the name itself is complained about below
+        deck.protocol = make_protocol(test_names().front()); // to read the rest; the name itself is complained about below
     }
     // The cards come first: the deck's other keys override them.
     if (json.is_object()) {
@@ -148,7 +152,8 @@ Json resolved(const Deck& deck) {
         region["material"]["card"] = custom_card;
     }
     if (!deck.specimen.file.empty()) {
-        json["specimen"] = {{"file", std::filesystem::absolute(std::filesystem::path(deck.folder) / deck.specimen.file).lexically_normal().string()}};
+        json["specimen"] = {
+            {"file", std::filesystem::absolute(std::filesystem::path(deck.folder) / deck.specimen.file).lexically_normal().string()}};
     }
     return json;
 }

@@ -15,8 +15,8 @@ namespace proveta {
 
 /// A box of the specimen with a material, and perhaps a cohesive group, of its own.
 struct MaterialRegion {
-    std::vector<double> from{0.0, 0.0, 0.0};    ///< corner, m
-    std::vector<double> to{0.0, 0.0, 0.0};      ///< opposite corner, m
+    std::vector<double> from{0.0, 0.0, 0.0}; ///< corner, m
+    std::vector<double> to{0.0, 0.0, 0.0};   ///< opposite corner, m
     std::int64_t group = 0;
     MaterialInput material;
 };
@@ -53,12 +53,12 @@ struct Deck {
     BondingInput bonding;
     MaterialInput material;
     std::vector<MaterialRegion> regions;
-    std::unique_ptr<Protocol> protocol;    ///< holds the "loading" section
+    std::unique_ptr<Protocol> protocol; ///< holds the "loading" section
     NumericsInput numerics;
     OutputInput output;
 
-    std::string source;    ///< the deck's file
-    std::string folder;    ///< where its relative file names start
+    std::string source; ///< the deck's file
+    std::string folder; ///< where its relative file names start
 };
 
 void declare(input::Visitor& v, Deck& deck);

@@ -60,9 +60,9 @@ void sphere_states(const Bench& bench, std::vector<double>& stress, std::vector<
         const auto i = static_cast<std::size_t>(m.bonds.i[b]);
         const auto j = static_cast<std::size_t>(m.bonds.j[b]);
         const Vec3 to = m.spheres.position.at(j) - m.spheres.position.at(i);
-        const Mat3 part = -m.bonds.forces.force.at(b) * to.transpose();
-        sum[i] += m.bonds.forces.share_i[b] * part;
-        sum[j] += (1.0 - m.bonds.forces.share_i[b]) * part;
+        const Mat3 part = -Vec3(m.bonds.forces[b].force) * to.transpose();
+        sum[i] += m.bonds.forces[b].share_i * part;
+        sum[j] += (1.0 - m.bonds.forces[b].share_i) * part;
         for (const auto k : {i, j}) {
             damage[k] += m.bonds.mode[b] != 0 ? 1.0 : 0.0;
             bonds[k] += 1.0;
@@ -103,10 +103,14 @@ report::Geometry sphere_fields(const Bench& bench) {
     std::vector<double> stress;
     std::vector<double> damage;
     sphere_states(bench, stress, damage);
-    g.point_arrays = {{"radius", 1, m.spheres.radius},          {"displacement", 3, interleaved(moved)},
-                      {"velocity", 3, interleaved(m.spheres.velocity)}, {"stress", 6, stress},
-                      {"damage", 1, damage},                    {"fragment", 1, as_numbers(fragments(m))},
-                      {"group", 1, as_numbers(m.spheres.group)}, {"material", 1, as_numbers(m.spheres.material)}};
+    g.point_arrays = {{"radius", 1, m.spheres.radius},
+                      {"displacement", 3, interleaved(moved)},
+                      {"velocity", 3, interleaved(m.spheres.velocity)},
+                      {"stress", 6, stress},
+                      {"damage", 1, damage},
+                      {"fragment", 1, as_numbers(fragments(m))},
+                      {"group", 1, as_numbers(m.spheres.group)},
+                      {"material", 1, as_numbers(m.spheres.material)}};
     return g;
 }
 
@@ -194,13 +198,14 @@ report::Picture slice(const Bench& bench, const std::string& title) {
         const double reach = std::sqrt(m.bonds.area[b] / std::numbers::pi) * length / (c - a).norm();
         const double mx = 0.5 * (a.x() + c.x());
         const double mz = 0.5 * (a.z() + c.z());
-        p.lines.push_back({mx - reach * dz / length, mz + reach * dx / length, mx + reach * dz / length, mz - reach * dx / length,
-                           m.bonds.mode[b]});
+        p.lines.push_back(
+            {mx - reach * dz / length, mz + reach * dx / length, mx + reach * dz / length, mz - reach * dx / length, m.bonds.mode[b]});
         ++cracks;
     }
-    p.caption = fmt::format("Slice through the axis, two mean radii thick. Shade: sideways displacement, up to {:.3g} mm. Strokes: {} failed bonds, "
-                            "red in tension, amber in shear.",
-                            1e3 * widest, cracks);
+    p.caption = fmt::format(
+        "Slice through the axis, two mean radii thick. Shade: sideways displacement, up to {:.3g} mm. Strokes: {} failed bonds, "
+        "red in tension, amber in shear.",
+        1e3 * widest, cracks);
     return p;
 }
 

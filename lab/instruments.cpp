@@ -56,15 +56,15 @@ Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) {
         const Vec3 at_j = model.spheres.position.at(j);
         const double inside = region.fraction_inside(at_i, at_j);
         if (inside > 0.0) {
-            sum -= inside * force * (at_j - at_i).transpose();    // force on i: compression pushes it against the branch
+            sum -= inside * force * (at_j - at_i).transpose(); // force on i: compression pushes it against the branch
         }
     };
     for (std::size_t k = 0; k < b.size(); ++k) {
-        add(static_cast<std::size_t>(b.i[k]), static_cast<std::size_t>(b.j[k]), b.forces.force.at(k));
+        add(static_cast<std::size_t>(b.i[k]), static_cast<std::size_t>(b.j[k]), Vec3(b.forces[k].force));
     }
     const Contacts& c = model.contacts;
     for (std::size_t k = 0; k < c.size(); ++k) {
-        add(static_cast<std::size_t>(c.i[k]), static_cast<std::size_t>(c.j[k]), c.forces.force.at(k));
+        add(static_cast<std::size_t>(c.i[k]), static_cast<std::size_t>(c.j[k]), Vec3(c.forces[k].force));
     }
     const Mat3 mean = sum / region.volume();
     return 0.5 * (mean + mean.transpose());
@@ -130,8 +130,8 @@ void Instruments::sample(const Bench& bench, report::Table& curve, report::Table
                           inner(2, 2), inner(0, 1), inner(1, 2), inner(2, 0), static_cast<double>(broken_tension_ + broken_shear_),
                           static_cast<double>(broken_tension_), static_cast<double>(broken_shear_), m.measures().unbalanced_ratio});
     const Ledger& l = m.ledger();
-    energy.rows.push_back({m.time(), strain, l.platens, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots, l.background,
-                           l.residual()});
+    energy.rows.push_back(
+        {m.time(), strain, l.platens, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots, l.background, l.residual()});
 }
 
 } // namespace proveta

@@ -32,15 +32,15 @@ class Instruments {
   private:
     struct Band {
         std::vector<std::size_t> spheres;
-        double height = 0.0;    ///< mean z at the start, m
+        double height = 0.0; ///< mean z at the start, m
     };
     [[nodiscard]] static double mean_rise(const Model& model, const Band& band);
 
     double height_ = 0.0;
     double section_ = 0.0;
-    Band lower_, upper_;                      // ends of the middle gauge
-    std::vector<std::size_t> girth_;          // lateral skin at mid-height
-    std::vector<double> girth_radius_;        // their distance from the axis at the start, m
+    Band lower_, upper_;               // ends of the middle gauge
+    std::vector<std::size_t> girth_;   // lateral skin at mid-height
+    std::vector<double> girth_radius_; // their distance from the axis at the start, m
     Shape::Region inner_;
     std::size_t broken_tension_ = 0;
     std::size_t broken_shear_ = 0;

@@ -24,7 +24,7 @@ class OutputFolder {
 
   private:
     std::filesystem::path path_;
-    std::filesystem::path first_made_;    // topmost folder that did not exist before
+    std::filesystem::path first_made_; // topmost folder that did not exist before
     bool begun_ = false;
 };
 

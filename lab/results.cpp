@@ -90,16 +90,20 @@ report::TextTable ledger_table(const report::Table& energy) {
 report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
     const auto& s = bench.statistics;
     const auto& shape = bench.specimen.shape;
-    const std::string size = shape.kind == ShapeKind::cylinder
-                                 ? fmt::format("cylinder {:.4g} x {:.4g} mm", 1e3 * shape.diameter, 1e3 * shape.height)
-                                 : fmt::format("prism {:.4g} x {:.4g} x {:.4g} mm", 1e3 * shape.width, 1e3 * shape.depth, 1e3 * shape.height);
+    const std::string size =
+        shape.kind == ShapeKind::cylinder
+            ? fmt::format("cylinder {:.4g} x {:.4g} mm", 1e3 * shape.diameter, 1e3 * shape.height)
+            : fmt::format("prism {:.4g} x {:.4g} x {:.4g} mm", 1e3 * shape.width, 1e3 * shape.depth, 1e3 * shape.height);
     return {"Specimen and material",
             {{"Quantity", "Value"},
              {"Shape", size},
-             {"Spheres", fmt::format("{}, mean radius {:.3f} mm, relative deviation {:.1f} %", s.spheres, 1e3 * s.mean_radius, 100 * s.relative_deviation)},
+             {"Spheres", fmt::format("{}, mean radius {:.3f} mm, relative deviation {:.1f} %", s.spheres, 1e3 * s.mean_radius,
+                                     100 * s.relative_deviation)},
              {"Porosity", fmt::format("{:.2f} % (overlaps counted twice)", 100 * s.porosity)},
-             {"Bonds", fmt::format("{}, mean coordination {:.2f}, interaction range beta = {:.4f}", bench.model->bonds.size(), bench.coordination, bench.beta)},
-             {"Bond areas over the section", fmt::format("{:.4f} (whole), {:.4f} (interior); sum(A d)/V = {:.3f}", bench.partition.section, bench.partition.interior, bench.partition.filling)},
+             {"Bonds", fmt::format("{}, mean coordination {:.2f}, interaction range beta = {:.4f}", bench.model->bonds.size(),
+                                   bench.coordination, bench.beta)},
+             {"Bond areas over the section", fmt::format("{:.4f} (whole), {:.4f} (interior); sum(A d)/V = {:.3f}", bench.partition.section,
+                                                         bench.partition.interior, bench.partition.filling)},
              {"Fabric deviator", fmt::format("{:.4f}", s.fabric_deviator)},
              {"Largest overlap", fmt::format("{:.3f} of the smaller radius", s.largest_overlap)},
              {"Material", fmt::format("{}: {}", deck.material.values.name, deck.material.values.about)},
@@ -120,7 +124,8 @@ report::TextTable provenance_table(const Deck& deck, const Bench& bench) {
              {"Program", fmt::format("Proveta {}, {}, {}", version(), PROVETA_COMPILER, bond_kernel_name())},
              {"Deck", deck.source},
              {"Specimen", fmt::format("seed {}, hash {}", deck.specimen.seed, hex(bench.specimen_hash))},
-             {"Steps", fmt::format("{} of {:.4g} s (stable step at least {:.4g} s)", bench.model->steps(), bench.model->dt(), bench.model->stable_step())},
+             {"Steps", fmt::format("{} of {:.4g} s (stable step at least {:.4g} s)", bench.model->steps(), bench.model->dt(),
+                                   bench.model->stable_step())},
              {"Final state", hex(bench.model->state_hash())},
              {"To repeat", "proveta run manifest.json --out NEW_FOLDER"},
              {"Written", now_utc()}}};

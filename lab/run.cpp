@@ -69,9 +69,8 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     const std::string started = now_utc();
     const auto clock = Clock::now();
 
-    Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source, [&](double done) {
-        progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done));
-    });
+    Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source,
+                                        [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
     progress.end_line();
     if (!options.quiet) {
         spdlog::info("specimen of {} spheres ready after {:.1f} s", specimen.size(), since(clock));
@@ -108,7 +107,7 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     report::write_file(out.file("curve.csv"), report::to_csv(data.curve));
     report::write_file(out.file("energy.csv"), report::to_csv(data.energy));
     report::write_file(out.file("events.csv"), report::to_csv(event_table(data.events)));
-    if (status != RunStatus::failed) {    // a failed state is not worth going on from
+    if (status != RunStatus::failed) { // a failed state is not worth going on from
         save_checkpoint(*bench.model, resolved(deck).dump(), out.file("checkpoint.h5"));
     }
     const report::Record record = make_record(deck, bench, data, name(status));

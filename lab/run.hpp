@@ -8,8 +8,8 @@
 namespace proveta {
 
 struct RunOptions {
-    std::string out;            ///< result folder
-    std::string command;        ///< as typed, for the manifest
+    std::string out;     ///< result folder
+    std::string command; ///< as typed, for the manifest
     bool quiet = false;
 };
 

@@ -14,7 +14,8 @@ double smooth_start(double time, double ramp) {
 
 void declare(input::Visitor& v, StopRules& r) {
     v.number("axial_strain", r.axial_strain, input::Unit::none, {0.0, 0.5, true, false}, "nominal axial strain at which the test ends");
-    v.number("post_peak_drop", r.post_peak_drop, input::Unit::none, {0.0, 1.0, true, false}, "share of the peak stress whose loss ends the test; 1: never");
+    v.number("post_peak_drop", r.post_peak_drop, input::Unit::none, {0.0, 1.0, true, false},
+             "share of the peak stress whose loss ends the test; 1: never");
 }
 
 std::optional<std::string> stopped_by(const StopRules& rules, const report::Table& curve) {

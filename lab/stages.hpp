@@ -15,8 +15,8 @@ double smooth_start(double time, double ramp);
 
 /// Ends of a test, whichever comes first.
 struct StopRules {
-    double axial_strain = 0.005;      ///< nominal, from platen travel
-    double post_peak_drop = 0.6;      ///< share of the peak stress that has been lost
+    double axial_strain = 0.005; ///< nominal, from platen travel
+    double post_peak_drop = 0.6; ///< share of the peak stress that has been lost
 };
 
 void declare(input::Visitor& v, StopRules& rules);

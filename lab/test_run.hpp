@@ -13,11 +13,11 @@ namespace proveta {
 
 /// A bond's failure.
 struct FailureEvent {
-    double time;            ///< s
-    double axial_strain;    ///< nominal
-    Vec3 position;          ///< middle of the bond, m
+    double time;         ///< s
+    double axial_strain; ///< nominal
+    Vec3 position;       ///< middle of the bond, m
     FailureMode mode;
-    double energy;          ///< dissipated by the bond's damage from first softening to failure, J
+    double energy; ///< dissipated by the bond's damage from first softening to failure, J
 };
 
 /// What a test left behind, apart from the model.
@@ -25,16 +25,16 @@ struct TestData {
     report::Table curve;
     report::Table energy;
     std::vector<FailureEvent> events;
-    std::vector<report::Picture> pictures;    ///< before, at peak, 20 % past it, at the end
+    std::vector<report::Picture> pictures; ///< before, at peak, 20 % past it, at the end
     std::string stopped_by;
-    std::string failure;                      ///< non-empty: the calculation failed, and how
+    std::string failure; ///< non-empty: the calculation failed, and how
     bool interrupted = false;
 };
 
 /// Hooks of whoever watches the test.
 struct TestHooks {
-    std::function<void(const TestData&, double done)> progress;    ///< at every sample and now and then; done 0 to 1
-    std::function<void()> fields;                                  ///< the fields are to be written
+    std::function<void(const TestData&, double done)> progress; ///< at every sample and now and then; done 0 to 1
+    std::function<void()> fields;                               ///< the fields are to be written
     std::function<bool()> interrupted;
 };
 

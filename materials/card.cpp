@@ -27,7 +27,8 @@ void declare(input::Visitor& v, Card& c) {
     v.number("area_factor", c.area_factor, Unit::none, above(0), "global factor alpha on all areas (5.5)");
     v.number("density", c.density, Unit::density, above(0), "density of the spheres");
     v.number("young_modulus", c.young_modulus, Unit::pressure, above(0), "Young's modulus E0 given to the bonds (5.34)");
-    v.number("poisson_ratio", c.poisson_ratio, Unit::none, {-1.0, 0.5, true, false}, "Poisson's ratio given to the bonds: G = E0 / (2 (1 + nu))");
+    v.number("poisson_ratio", c.poisson_ratio, Unit::none, {-1.0, 0.5, true, false},
+             "Poisson's ratio given to the bonds: G = E0 / (2 (1 + nu))");
     v.number("normal_factor", c.normal_factor, Unit::none, above(0), "a in k_n = a E0 A / L (5.34)");
     v.number("shear_factor", c.shear_factor, Unit::none, at_least(0), "b in k_t = b G A / L (5.34)");
     v.number("strength_factor", c.strength_factor, Unit::none, above(0), "factor on sigma_f, tau_f and the LCS");
@@ -35,12 +36,15 @@ void declare(input::Visitor& v, Card& c) {
     v.number("tau_f", c.tau_f, Unit::pressure, at_least(0), "shear strength of a bond without normal force (5.21)");
     v.number("mu_s", c.mu_s, Unit::none, between(0, 10), "internal friction of an intact bond (5.21)");
     v.number("mu_d", c.mu_d, Unit::none, between(0, 10), "Coulomb friction after failure and of new contacts (5.2.5)");
-    v.number("softening_tension", c.softening_tension, Unit::none, between(1e-6, 1e6), "length of the softening branch in tension over the limit displacement, u_f/u_l - 1 (5.24)");
+    v.number("softening_tension", c.softening_tension, Unit::none, between(1e-6, 1e6),
+             "length of the softening branch in tension over the limit displacement, u_f/u_l - 1 (5.24)");
     v.number("softening_shear", c.softening_shear, Unit::none, between(1e-6, 1e6), "the same in shear (5.24)");
     v.numbers("lcs", c.lcs, 3, Unit::pressure, above(0), "compressive stresses LCS1 to LCS3 where the envelope changes slope (5.28)");
     v.numbers("yrc", c.yrc, 3, Unit::none, at_least(1), "ratios YRC1 to YRC3 of the initial slope to the slope beyond each LCS (5.28)");
-    v.number("local_damping", c.local_damping, Unit::none, between(0, 1), "fraction of critical damping in each bond's normal direction (5.15)");
-    v.number("contact_restitution", c.contact_restitution, Unit::none, {0.0, 1.0, true, false}, "normal restitution of contacts between unbonded spheres (2.21)");
+    v.number("local_damping", c.local_damping, Unit::none, between(0, 1),
+             "fraction of critical damping in each bond's normal direction (5.15)");
+    v.number("contact_restitution", c.contact_restitution, Unit::none, {0.0, 1.0, true, false},
+             "normal restitution of contacts between unbonded spheres (2.21)");
 }
 
 Material to_material(const Card& c) {
@@ -136,7 +140,8 @@ Card load_card(const std::string& name_or_file, const std::string& folder, const
 }
 
 void declare(input::Visitor& v, MaterialInput& material) {
-    v.text("card", material.card, "material card: a name that `proveta describe` lists, a JSON file, or \"custom\" for none; the other keys override it");
+    v.text("card", material.card,
+           "material card: a name that `proveta describe` lists, a JSON file, or \"custom\" for none; the other keys override it");
     declare(v, material.values);
 }
 

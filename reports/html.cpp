@@ -12,12 +12,15 @@ constexpr const char* style = R"(
 body{font:15px/1.5 system-ui,sans-serif;color:#1b2530;background:#fff;max-width:1040px;margin:0 auto;padding:1.2rem}
 h1{font-size:1.6rem;margin:.2rem 0}h2{font-size:1.15rem;margin:1.8rem 0 .5rem;border-bottom:2px solid #1f4e79;padding-bottom:.2rem}
 .sub{color:#4a5866;margin:0}
-table{border-collapse:collapse;width:100%;font-size:.92rem}th,td{text-align:left;padding:.3rem .6rem;border-bottom:1px solid #dde3e8;vertical-align:top}
+table{border-collapse:collapse;width:100%;font-size:.92rem}
+th,td{text-align:left;padding:.3rem .6rem;border-bottom:1px solid #dde3e8;vertical-align:top}
 th{background:#f2f5f8}td.num{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
 .badge{border-left:6px solid #1e7b46;background:#eef7f1;padding:.5rem .9rem;margin:.6rem 0}.badge.bad{border-color:#b03a2e;background:#fbeeec}
 .badge b{display:block}.warn{border-left:6px solid #b9770e;background:#fdf4e3;padding:.4rem .9rem;margin:.4rem 0}
-.row{display:flex;flex-wrap:wrap;gap:1rem}.row figure{flex:1 1 200px;max-width:320px;margin:0}.plot{flex:1 1 440px;margin:0}
-figcaption{font-size:.85rem;color:#4a5866}svg{width:100%;height:auto}code{font-size:.88rem;overflow-wrap:anywhere}
+.row{display:flex;flex-wrap:wrap;gap:1rem}.row figure{flex:1 1 200px;max-width:320px;margin:0}
+.plot{flex:1 1 440px;margin:0}
+figcaption{font-size:.85rem;color:#4a5866}
+svg{width:100%;height:auto}code{font-size:.88rem;overflow-wrap:anywhere}
 .status{display:inline-block;padding:.1rem .6rem;border-radius:1rem;background:#1e7b46;color:#fff;font-size:.85rem}.status.bad{background:#b03a2e}
 @media print{body{max-width:none;padding:0}h2{break-after:avoid}figure{break-inside:avoid}}
 @media(max-width:600px){body{padding:.7rem}.scroll{overflow-x:auto}}
@@ -49,9 +52,10 @@ std::string text_table(const TextTable& t) {
 } // namespace
 
 std::string to_html(const Record& r) {
-    std::string out = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-                                  "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{}</title><style>{}</style></head><body>\n",
-                                  escape(r.title), style);
+    std::string out = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{}</title><style>{}</style></head><body>\n",
+        escape(r.title), style);
     out += fmt::format("<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<p><span class=\"status{}\">{}</span> {}</p>\n", escape(r.title),
                        escape(r.subtitle), r.status == "complete" ? "" : " bad", escape(r.status), escape(r.stopped_by));
     for (const auto& w : r.warnings) {
@@ -73,7 +77,8 @@ std::string to_html(const Record& r) {
     if (!r.pictures.empty()) {
         out += "<h2>The specimen</h2>\n<div class=\"row\">\n";
         for (const auto& p : r.pictures) {
-            out += fmt::format("<figure>{}<figcaption><b>{}.</b> {}</figcaption></figure>\n", to_svg(p), escape(p.title), escape(p.caption));
+            out +=
+                fmt::format("<figure>{}<figcaption><b>{}.</b> {}</figcaption></figure>\n", to_svg(p), escape(p.title), escape(p.caption));
         }
         out += "</div>\n";
     }

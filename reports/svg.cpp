@@ -107,13 +107,14 @@ std::string to_svg(const Plot& plot) {
         }
     }
     for (const auto& [x, y] : plot.marks) {
-        out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"none\" stroke=\"#b03a2e\" stroke-width=\"2\"/>\n", px(x), py(y));
+        out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"none\" stroke=\"#b03a2e\" stroke-width=\"2\"/>\n", px(x),
+                           py(y));
     }
     return out + "</svg>\n";
 }
 
 std::string to_svg(const Picture& p) {
-    const double scale = 1000.0;    // mm
+    const double scale = 1000.0; // mm
     const double margin = 0.06 * p.width;
     std::string out = fmt::format("<svg viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" aria-label=\"{}\" "
                                   "xmlns=\"http://www.w3.org/2000/svg\">\n",

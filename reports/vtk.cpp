@@ -75,7 +75,8 @@ void write_vtp(const std::string& file, const Geometry& g) {
 }
 
 std::string to_pvd(const std::vector<SeriesEntry>& entries) {
-    std::string out = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+    std::string out =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
     for (const auto& e : entries) {
         out += fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", e.time,
                            e.part == "spheres" ? 0 : (e.part == "bonds" ? 1 : 2), e.part, e.file);

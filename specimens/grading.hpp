@@ -8,8 +8,8 @@ namespace proveta {
 
 /// A point of a sieve curve: the share of the mass that is finer than the diameter.
 struct SievePoint {
-    double diameter;    ///< m
-    double passing;     ///< 0 to 1
+    double diameter; ///< m
+    double passing;  ///< 0 to 1
 };
 
 /// n radii in random order that follow a normal distribution cut at lowest and highest (over the mean) and scaled so that the mean is

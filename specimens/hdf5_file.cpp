@@ -30,7 +30,7 @@ class Handle {
 } // namespace
 
 Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);    // failures are reported by exceptions, not on stderr
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures are reported by exceptions, not on stderr
     file_ = mode == Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
                                  : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ < 0) {
@@ -70,8 +70,12 @@ void Hdf5File::put_raw(const std::string& name, const void* data, std::size_t n,
 }
 
 void Hdf5File::put(const std::string& name, const std::vector<double>& v) { put_raw(name, v.data(), v.size(), H5T_NATIVE_DOUBLE, true); }
-void Hdf5File::put(const std::string& name, const std::vector<std::int32_t>& v) { put_raw(name, v.data(), v.size(), H5T_NATIVE_INT32, true); }
-void Hdf5File::put(const std::string& name, const std::vector<std::uint8_t>& v) { put_raw(name, v.data(), v.size(), H5T_NATIVE_UINT8, true); }
+void Hdf5File::put(const std::string& name, const std::vector<std::int32_t>& v) {
+    put_raw(name, v.data(), v.size(), H5T_NATIVE_INT32, true);
+}
+void Hdf5File::put(const std::string& name, const std::vector<std::uint8_t>& v) {
+    put_raw(name, v.data(), v.size(), H5T_NATIVE_UINT8, true);
+}
 void Hdf5File::put(const std::string& name, std::int64_t value) { put_raw(name, &value, 1, H5T_NATIVE_INT64, false); }
 void Hdf5File::put_text(const std::string& name, const std::string& text) {
     put(name, std::vector<std::uint8_t>(text.begin(), text.end()));

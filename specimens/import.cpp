@@ -73,7 +73,7 @@ std::vector<Sphere> read_table(Lines& in) {
         const auto f = fields(line.substr(0, line.find('#')));
         double probe = 0.0;
         if (f.empty() || (out.empty() && !number(f[0], probe))) {
-            continue;    // blank, comment or heading
+            continue; // blank, comment or heading
         }
         if (f.size() < 4) {
             in.fail(fmt::format("{} numbers where x y z r are expected", f.size()));

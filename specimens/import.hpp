@@ -9,13 +9,13 @@ namespace proveta {
 
 /// How an imported mesh lies and what solid it fills. Lengths in m; 0: fitted to the spheres.
 struct ImportOptions {
-    char axis = 'z';           ///< the file's axis that becomes z
+    char axis = 'z'; ///< the file's axis that becomes z
     std::string shape = "cylinder";
     double diameter = 0.0;
     double width = 0.0;
     double depth = 0.0;
     double height = 0.0;
-    double scale = 1.0;        ///< metres per unit of the file
+    double scale = 1.0; ///< metres per unit of the file
 };
 
 /// Reads spheres from a file by its ending: `.csv`, `.txt`, `.xyzr` (lines `x y z r [group]`, any of comma, semicolon or space between,

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/contacts/cell_grid.hpp"
-#include "core/contacts/pair_forces.hpp"
+#include "core/contacts/incidence.hpp"
 #include "core/geometry/hilbert.hpp"
 #include "specimens/random.hpp"
 
@@ -38,11 +38,11 @@ Neighbours list_neighbours(const VectorField& at, const std::vector<double>& rad
 
 // Sums of one block of spheres, added up in block order.
 struct Sums {
-    double power = 0.0;        // F . v
-    double force2 = 0.0;       // |F|^2
-    double speed2 = 0.0;       // |v|^2
-    double net = 0.0;          // sum of |F|
-    double contact = 0.0;      // sum of single contact forces
+    double power = 0.0;   // F . v
+    double force2 = 0.0;  // |F|^2
+    double speed2 = 0.0;  // |v|^2
+    double net = 0.0;     // sum of |F|
+    double contact = 0.0; // sum of single contact forces
     double contacts = 0.0;
     double farthest = 0.0;
 
@@ -59,7 +59,8 @@ struct Sums {
 
 class Relaxer {
   public:
-    Relaxer(const Shape& shape, Packing& packing) : shape_(shape), p_(packing), velocity_(packing.radius.size()), force_(packing.radius.size()) {
+    Relaxer(const Shape& shape, Packing& packing)
+        : shape_(shape), p_(packing), velocity_(packing.radius.size()), force_(packing.radius.size()) {
         const auto n = static_cast<double>(p_.radius.size());
         skin_ = 0.35 * std::accumulate(p_.radius.begin(), p_.radius.end(), 0.0) / n;
     }
@@ -176,7 +177,7 @@ Packing pack(const Shape& shape, const std::vector<double>& radii, std::uint64_t
     p = std::move(sorted);
 
     Relaxer relaxer(shape, p);
-    constexpr double longest = 0.25;    // half the critical step of a sphere with some fifteen springs of unit stiffness
+    constexpr double longest = 0.25; // half the critical step of a sphere with some fifteen springs of unit stiffness
     constexpr int most = 5000;
     double dt = 0.1;
     double mix = 0.1;

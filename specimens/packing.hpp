@@ -19,7 +19,7 @@ struct Packing {
 /// How far a relaxation went.
 struct Relaxation {
     int iterations = 0;
-    double residual = 0.0;    ///< mean net force over mean contact force
+    double residual = 0.0; ///< mean net force over mean contact force
 };
 
 /// Places spheres of the given radii at random in the shape and relaxes their overlaps (harmonic repulsion, minimised by FIRE: E. Bitzek

@@ -14,8 +14,7 @@ enum class Stream : std::uint64_t { radii = 1, positions = 2 };
 class Random {
   public:
     Random(std::uint64_t seed, Stream stream) {
-        std::seed_seq mix{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
-                          static_cast<std::uint32_t>(stream)};
+        std::seed_seq mix{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), static_cast<std::uint32_t>(stream)};
         engine_.seed(mix);
     }
 

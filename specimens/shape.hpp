@@ -12,14 +12,14 @@ enum class ShapeKind { cylinder, prism };
 /// A right cylinder or rectangular prism with axis z, centred on it, from z = 0 to z = height. Lengths in m.
 struct Shape {
     ShapeKind kind = ShapeKind::cylinder;
-    double diameter = 0.15;    ///< of a cylinder
-    double width = 0.15;       ///< of a prism, along x
-    double depth = 0.15;       ///< of a prism, along y
+    double diameter = 0.15; ///< of a cylinder
+    double width = 0.15;    ///< of a prism, along x
+    double depth = 0.15;    ///< of a prism, along y
     double height = 0.30;
 
-    [[nodiscard]] double section() const;         ///< area across z, m2
-    [[nodiscard]] double volume() const;          ///< m3
-    [[nodiscard]] double lateral_size() const;    ///< diameter, or the smaller side
+    [[nodiscard]] double section() const;      ///< area across z, m2
+    [[nodiscard]] double volume() const;       ///< m3
+    [[nodiscard]] double lateral_size() const; ///< diameter, or the smaller side
     [[nodiscard]] std::string name() const;
 
     /// Distance from p to the lateral surface, positive inside, m.
@@ -40,8 +40,8 @@ struct Shape {
 
 /// A shape lifted to z = base.
 struct Shape::Region {
-    double base = 0.0;    ///< m
-    double height = 0.0;    ///< m
+    double base = 0.0;   ///< m
+    double height = 0.0; ///< m
     double size_x = 0.0, size_y = 0.0;
     bool round = true;
 

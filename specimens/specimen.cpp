@@ -31,12 +31,17 @@ void declare(input::Visitor& v, SpecimenRecipe& r) {
     v.number("depth", r.depth, Unit::length, between(1e-4, 100), "side of a prism along y");
     v.number("height", r.height, Unit::length, between(1e-4, 100), "height along z");
     v.integer("spheres", r.spheres, 2, 20000000, "number of spheres; with the porosity it gives the mean radius");
-    v.number("porosity", r.porosity, Unit::none, between(0.05, 0.9), "1 - (volume of all spheres, overlaps counted twice) / (volume of the shape)");
-    v.number("radius_deviation", r.radius_deviation, Unit::none, between(0, 0.5), "standard deviation of the radii over their mean, of a normal distribution cut at the two bounds below");
+    v.number("porosity", r.porosity, Unit::none, between(0.05, 0.9),
+             "1 - (volume of all spheres, overlaps counted twice) / (volume of the shape)");
+    v.number("radius_deviation", r.radius_deviation, Unit::none, between(0, 0.5),
+             "standard deviation of the radii over their mean, of a normal distribution cut at the two bounds below");
     v.number("smallest_radius", r.smallest_radius, Unit::none, {0.05, 1.0, false, false}, "lower cut, over the mean radius");
     v.number("largest_radius", r.largest_radius, Unit::none, {1.0, 10.0, false, false}, "upper cut, over the mean radius");
-    v.list("grading", r.grading, "sieve curve instead of the normal distribution: ascending diameters from passing 0 to passing 1; scaled to meet porosity and number of spheres");
-    v.number("relaxation", r.relaxation, Unit::none, between(1e-4, 0.5), "net force over contact force at which the packing counts as relaxed");
+    v.list("grading", r.grading,
+           "sieve curve instead of the normal distribution: ascending diameters from passing 0 to passing 1; scaled to meet porosity and "
+           "number of spheres");
+    v.number("relaxation", r.relaxation, Unit::none, between(1e-4, 0.5),
+             "net force over contact force at which the packing counts as relaxed");
     v.integer("seed", r.seed, 0, INT64_MAX, "number that the packing's randomness starts from");
 }
 
@@ -89,7 +94,8 @@ void check_recipe(const SpecimenRecipe& r, const std::string& source, const std:
         const auto& p = r.grading[k];
         const bool ascends = first || (p.diameter > r.grading[k - 1].diameter && p.passing > r.grading[k - 1].passing);
         if (!ascends || (first && p.passing != 0.0) || (last && p.passing != 1.0) || r.grading.size() < 2) {
-            problems.push_back({source, fmt::format("{}/grading/{}", path, k), fmt::format("passing {:.4g} at {:.4g} m", p.passing, p.diameter),
+            problems.push_back({source, fmt::format("{}/grading/{}", path, k),
+                                fmt::format("passing {:.4g} at {:.4g} m", p.passing, p.diameter),
                                 "at least two points, ascending, from passing 0 to passing 1", ""});
             return;
         }
@@ -108,9 +114,10 @@ void check_recipe(const SpecimenRecipe& r, const std::string& source, const std:
             normal_radii(2, r.radius_deviation, r.smallest_radius, r.largest_radius, 0);
         }
     } catch (const std::invalid_argument&) {
-        problems.push_back({source, path + "/radius_deviation", fmt::format("{:.4g}", r.radius_deviation),
-                            fmt::format("a deviation that radii between {:.3g} and {:.3g} of the mean can have", r.smallest_radius, r.largest_radius),
-                            "widen smallest_radius and largest_radius"});
+        problems.push_back(
+            {source, path + "/radius_deviation", fmt::format("{:.4g}", r.radius_deviation),
+             fmt::format("a deviation that radii between {:.3g} and {:.3g} of the mean can have", r.smallest_radius, r.largest_radius),
+             "widen smallest_radius and largest_radius"});
     }
 }
 

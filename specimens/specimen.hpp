@@ -15,8 +15,8 @@ namespace proveta {
 struct Specimen {
     Shape shape;
     Packing spheres;
-    std::vector<int> group;    ///< cohesive group of each sphere
-    input::Json recipe;        ///< what it was made by: the recipe as resolved, or the file it came from
+    std::vector<int> group; ///< cohesive group of each sphere
+    input::Json recipe;     ///< what it was made by: the recipe as resolved, or the file it came from
 
     [[nodiscard]] std::size_t size() const { return spheres.radius.size(); }
 };

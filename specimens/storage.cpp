@@ -56,8 +56,8 @@ Specimen load_specimen(const std::string& file) {
     std::vector<double> shape;
     h.get("shape", shape);
     const std::size_t n = s.spheres.radius.size();
-    if (n == 0 || s.spheres.centre.x.size() != n || s.spheres.centre.y.size() != n || s.spheres.centre.z.size() != n || s.group.size() != n ||
-        shape.size() != 5) {
+    if (n == 0 || s.spheres.centre.x.size() != n || s.spheres.centre.y.size() != n || s.spheres.centre.z.size() != n ||
+        s.group.size() != n || shape.size() != 5) {
         throw std::runtime_error("arrays of unequal length");
     }
     s.shape.kind = shape[0] != 0.0 ? ShapeKind::prism : ShapeKind::cylinder;

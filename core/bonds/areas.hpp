@@ -16,8 +16,8 @@ double polyhedron_ratio(double faces);
 
 /// Areas of pairs under one rule, and the per-sphere weights that make areas of later contacts consistent with them.
 struct Areas {
-    std::vector<double> pair;      ///< one a pair, m2
-    std::vector<double> weight;    ///< alpha_i of each sphere; 1 for the rules that have none
+    std::vector<double> pair;   ///< one a pair, m2
+    std::vector<double> weight; ///< alpha_i of each sphere; 1 for the rules that have none
 };
 
 /// Areas of `pairs` by `rule`. skin[i] != 0 marks spheres at the specimen's surface, which are not surrounded by neighbours.

@@ -37,7 +37,7 @@ BondDissipation bond_forces(const Spheres& spheres, Bonds& bonds, double dt, boo
         }
     }
     const std::size_t blocks = bonds.blocks.size();
-    thread_local std::vector<BlockResult> scratch;    // of the calling thread; the team shares it by reference
+    thread_local std::vector<BlockResult> scratch; // of the calling thread; the team shares it by reference
     scratch.resize(blocks);
     auto& results = scratch;
     const auto run = variant().run;

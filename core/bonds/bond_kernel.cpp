@@ -13,7 +13,7 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const dempack
                        BlockResult& out) {
     using std::sqrt;
     const T u[3] = {load<T>(&bonds.slip[0][b]), load<T>(&bonds.slip[1][b]), load<T>(&bonds.slip[2][b])};
-    const auto pair = pair_kinematics(s, &bonds.i[b], &bonds.j[b], load<T>(&bonds.share_i[b]), u, dt);
+    const auto pair = pair_kinematics(s, &bonds.i[b], &bonds.j[b], load_shares<T>(&bonds.forces[b]), u, dt);
 
     dempack::Kinematics<T> kin;
     kin.shortening = load<T>(&bonds.length[b]) - pair.distance;
@@ -47,7 +47,7 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const dempack
         }
     }
 
-    store_pair_forces(bonds.forces, b, pair, normal, r.shear);
+    store_pair_forces(&bonds.forces[b], pair, normal, r.shear);
     for (int c = 0; c < 3; ++c) {
         store(&bonds.slip[c][b], state.u_t[c]);
     }
@@ -71,7 +71,7 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const dempack
             out.dissipation.damage += work;
             bonds.damage_work[b + k] += work;
             if (mask_lane(broken, k) && bonds.mode[b + k] == 0) {
-                bonds.mode[b + k] = in_lane(state.d_n, k) >= 1.0 ? 1 : 2;    // FailureMode: tension, shear
+                bonds.mode[b + k] = in_lane(state.d_n, k) >= 1.0 ? 1 : 2; // FailureMode: tension, shear
                 out.failures[out.failed++] = static_cast<std::uint32_t>(b + k);
             }
         }

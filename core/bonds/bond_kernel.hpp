@@ -9,7 +9,7 @@
 
 namespace proveta {
 
-constexpr std::uint32_t bond_block = 512;    ///< most bonds a block: a multiple of every vector width, small enough to balance threads
+constexpr std::uint32_t bond_block = 512; ///< most bonds a block: a multiple of every vector width, small enough to balance threads
 
 /// Energy that left the bonds in one step, by mechanism, J.
 struct BondDissipation {
@@ -29,12 +29,12 @@ struct BlockResult {
 /// Bare pointers into the bonds' arrays (core/bonds/bonds.hpp says what they hold).
 struct BondView {
     const std::int32_t *i, *j;
-    const double *length, *area, *stiffness, *dashpot, *share_i;
+    const double *length, *area, *stiffness, *dashpot;
     double* slip[3];
     double *plastic, *damage_n, *damage_t, *damage_work;
     std::uint8_t* mode;
-    PairForceView forces;
-    double *normal, *shear, *criterion, *stored;    ///< only when measuring
+    PairForce* forces;
+    double *normal, *shear, *criterion, *stored; ///< only when measuring
     bool damped;
 };
 

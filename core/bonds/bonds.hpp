@@ -7,7 +7,7 @@
 #include "core/bonds/areas.hpp"
 #include "core/bonds/bond_kernel.hpp"
 #include "core/bonds/material.hpp"
-#include "core/contacts/pair_forces.hpp"
+#include "core/contacts/incidence.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -19,32 +19,32 @@ enum class FailureMode : std::uint8_t { intact = 0, tension = 1, shear = 2 };
 struct BondBlock {
     std::uint32_t begin;
     std::uint32_t end;
-    std::uint32_t law;    ///< index into Bonds::laws
+    std::uint32_t law; ///< index into Bonds::laws
 };
 
 /// Bonds of a specimen, sorted by material pair and then along the spheres' space-filling order. One entry per bond; SI units.
 struct Bonds {
-    std::vector<std::int32_t> i, j;           ///< the two spheres, i < j
-    std::vector<double> length;               ///< d0, distance at the start, m
-    std::vector<double> area;                 ///< m2
-    std::vector<double> stiffness;            ///< k_n, N/m
-    std::vector<double> dashpot;              ///< c_n, N s/m
-    VectorField slip;                         ///< u_t, elastic tangential displacement, m
-    std::vector<double> plastic;              ///< u_p, plastic shortening, m
-    std::vector<double> damage_n, damage_t;   ///< 0 to 1
-    std::vector<double> damage_work;          ///< dissipated by damage and failure so far, J
-    std::vector<std::uint8_t> mode;           ///< FailureMode
-    PairForces forces;
-    Incidence incidence;                      ///< bonds of each sphere
+    std::vector<std::int32_t> i, j;         ///< the two spheres, i < j
+    std::vector<double> length;             ///< d0, distance at the start, m
+    std::vector<double> area;               ///< m2
+    std::vector<double> stiffness;          ///< k_n, N/m
+    std::vector<double> dashpot;            ///< c_n, N s/m
+    VectorField slip;                       ///< u_t, elastic tangential displacement, m
+    std::vector<double> plastic;            ///< u_p, plastic shortening, m
+    std::vector<double> damage_n, damage_t; ///< 0 to 1
+    std::vector<double> damage_work;        ///< dissipated by damage and failure so far, J
+    std::vector<std::uint8_t> mode;         ///< FailureMode
+    std::vector<PairForce> forces;
+    Incidence incidence; ///< bonds of each sphere
     std::vector<dempack::Parameters> laws;
     std::vector<BondBlock> blocks;
-    bool damped = false;                      ///< some bond has a dashpot
+    bool damped = false; ///< some bond has a dashpot
 
     // Filled on request by `bond_forces`, for output.
-    std::vector<double> normal;       ///< F_n without dashpot, compression positive, N
-    std::vector<double> shear;        ///< |F_t|, N
-    std::vector<double> criterion;    ///< failure criterion state (5.44), 0 to 1
-    std::vector<double> stored;       ///< elastic energy, J
+    std::vector<double> normal;    ///< F_n without dashpot, compression positive, N
+    std::vector<double> shear;     ///< |F_t|, N
+    std::vector<double> criterion; ///< failure criterion state (5.44), 0 to 1
+    std::vector<double> stored;    ///< elastic energy, J
 
     [[nodiscard]] std::size_t size() const { return i.size(); }
     void resize(std::size_t n);
@@ -53,8 +53,8 @@ struct Bonds {
 
 /// Which spheres are bonded, and over what distance.
 struct BondingRule {
-    double beta = 0.15;            ///< pairs with d <= (1 + beta)(R_i + R_j)
-    double coordination = 0.0;     ///< when positive, beta is iterated until the mean number of bonds a sphere is this
+    double beta = 0.15;        ///< pairs with d <= (1 + beta)(R_i + R_j)
+    double coordination = 0.0; ///< when positive, beta is iterated until the mean number of bonds a sphere is this
 };
 
 /// Pairs to bond: same cohesive group, within reach. Overlapping pairs of a group are always among them. `beta` returns the value used.

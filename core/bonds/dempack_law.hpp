@@ -29,50 +29,50 @@
 
 namespace proveta::dempack {
 
-constexpr double smallest = 1e-300;    ///< keeps quotients defined for bonds without strength
+constexpr double smallest = 1e-300; ///< keeps quotients defined for bonds without strength
 
 /// Properties of a bond's material that do not depend on the pair's geometry. Defaults: thesis, table 5.5.
 struct Parameters {
-    double shear_ratio = 1.0 / 2.4;              ///< k_t / k_n = b G / (a E), (5.17)
-    double sigma_f = 5.0e6;                      ///< tensile strength, Pa
-    double tau_f = 16.0e6;                       ///< shear strength without normal force, Pa
-    double mu_s = 0.9;                           ///< internal friction of the intact bond
-    double mu_d = 0.25;                          ///< friction after failure
-    double softening_n = 0.2;                    ///< length of the softening branch in tension over u_l
-    double softening_t = 0.2;                    ///< the same in shear
-    double lcs[3] = {20.0e6, 45.0e6, 70.0e6};    ///< stresses where the compression envelope changes slope, ascending, Pa
-    double yrc[3] = {3.0, 12.0, 22.0};           ///< k_n over the slope beyond each of them, >= 1
+    double shear_ratio = 1.0 / 2.4;           ///< k_t / k_n = b G / (a E), (5.17)
+    double sigma_f = 5.0e6;                   ///< tensile strength, Pa
+    double tau_f = 16.0e6;                    ///< shear strength without normal force, Pa
+    double mu_s = 0.9;                        ///< internal friction of the intact bond
+    double mu_d = 0.25;                       ///< friction after failure
+    double softening_n = 0.2;                 ///< length of the softening branch in tension over u_l
+    double softening_t = 0.2;                 ///< the same in shear
+    double lcs[3] = {20.0e6, 45.0e6, 70.0e6}; ///< stresses where the compression envelope changes slope, ascending, Pa
+    double yrc[3] = {3.0, 12.0, 22.0};        ///< k_n over the slope beyond each of them, >= 1
 };
 
 /// What happens to a bond within one step.
 template <class T> struct Kinematics {
-    T shortening;        ///< u_n at the end of the step, m
-    T approach;          ///< increase of u_n during the step, m
-    T slip[3];           ///< tangential displacement increment, m
+    T shortening; ///< u_n at the end of the step, m
+    T approach;   ///< increase of u_n during the step, m
+    T slip[3];    ///< tangential displacement increment, m
 };
 
 /// Memory of a bond. Shape: one bond (T = double) or one bond a lane.
 template <class T> struct State {
-    T u_t[3];         ///< elastic tangential displacement, m; turned with the bond's frame before the law sees it
-    T u_p;            ///< plastic shortening, m
-    T d_n;            ///< damage in tension; 1: failed
-    T d_t;            ///< damage in shear; 1: failed
+    T u_t[3]; ///< elastic tangential displacement, m; turned with the bond's frame before the law sees it
+    T u_p;    ///< plastic shortening, m
+    T d_n;    ///< damage in tension; 1: failed
+    T d_t;    ///< damage in shear; 1: failed
 };
 
 /// Forces after the step, and where the energy of the step went.
 template <class T> struct Response {
-    T normal;            ///< F_n, positive in compression, N
-    T shear[3];          ///< force of j on i in the contact plane, N
-    T damage_work;       ///< dissipated by damage and failure, J
-    T plastic_work;      ///< dissipated by plastic shortening, J
-    T friction_work;     ///< dissipated by sliding after failure, J
+    T normal;        ///< F_n, positive in compression, N
+    T shear[3];      ///< force of j on i in the contact plane, N
+    T damage_work;   ///< dissipated by damage and failure, J
+    T plastic_work;  ///< dissipated by plastic shortening, J
+    T friction_work; ///< dissipated by sliding after failure, J
 };
 
 /// Force of the compression envelope at shortening u (5.28): slope k_n up to LCS1, k_n / YRC_i beyond LCS_i. Valid for u >= 0.
 template <class T> inline T compression_envelope(const Parameters& p, const T& k_n, const T& area, const T& u) {
     const T trial = k_n * u;
-    T bend = p.lcs[0] * area;                    // elastic force k_n u at which the branch begins
-    T base = bend;                               // envelope force there
+    T bend = p.lcs[0] * area; // elastic force k_n u at which the branch begins
+    T base = bend;            // envelope force there
     T force = trial;
     for (int b = 0; b < 3; ++b) {
         force = select(trial > bend, base + (trial - bend) * (1.0 / p.yrc[b]), force);
@@ -88,8 +88,7 @@ template <class T> inline T compression_envelope(const Parameters& p, const T& k
 /// One step of one bond. Pure: everything comes in by argument and leaves by state and result.
 ///
 /// k_n in N/m and area in m2 are those of the bond; state is brought to the end of the step. Failure shows as damage reaching 1.
-template <class T>
-inline Response<T> advance(const Parameters& p, const T& k_n, const T& area, const Kinematics<T>& kin, State<T>& s) {
+template <class T> inline Response<T> advance(const Parameters& p, const T& k_n, const T& area, const Kinematics<T>& kin, State<T>& s) {
     using std::max;
     using std::min;
     using std::sqrt;
@@ -143,7 +142,7 @@ inline Response<T> advance(const Parameters& p, const T& k_n, const T& area, con
 
     const auto broken = (s.d_n >= one) || (s.d_t >= one);
     const auto in_tension = elongation > zero;
-    const T stays_n = select(broken, zero, one - s.d_n);    // share of the tensile stiffness that is left
+    const T stays_n = select(broken, zero, one - s.d_n); // share of the tensile stiffness that is left
     r.normal = select(in_tension, r.normal * stays_n, r.normal);
     for (int c = 0; c < 3; ++c) {
         s.u_t[c] = trial[c];
@@ -166,7 +165,7 @@ inline Response<T> advance(const Parameters& p, const T& k_n, const T& area, con
         const T force = k_t * length;
         const T scale = select(force > coulomb, coulomb / max(force, T(smallest)), one);
         for (int c = 0; c < 3; ++c) {
-            const T keep = select(fails_now, zero, trial[c] * scale);    // at failure the spring starts at zero
+            const T keep = select(fails_now, zero, trial[c] * scale); // at failure the spring starts at zero
             const T slid = select(was_broken, trial[c] - keep, zero);
             const T friction = 0.5 * k_t * (old[c] + keep) * slid;
             r.friction_work = r.friction_work + friction;
@@ -178,8 +177,7 @@ inline Response<T> advance(const Parameters& p, const T& k_n, const T& area, con
 }
 
 /// Energy that the bond can give back, J: normal and tangential springs. Same arguments as `advance`, after it.
-template <class T>
-inline T stored_energy(const Parameters& p, const T& k_n, const T& shortening, const T& normal, const State<T>& s) {
+template <class T> inline T stored_energy(const Parameters& p, const T& k_n, const T& shortening, const T& normal, const State<T>& s) {
     using std::max;
     const T elongation = s.u_p - shortening;
     const T in_normal = 0.5 * select(elongation > T(0.0), -normal * elongation, normal * normal / k_n);

@@ -13,16 +13,16 @@ enum class AreaRule { minimum_radius, truncated_cone, virtual_polyhedron };
 /// Rules that turn the material of a card into bonds, contacts and masses. SI units.
 struct Material {
     std::string name = "unnamed";
-    double density = 2500.0;           ///< of a sphere, kg/m3
-    double young_modulus = 28.0e9;     ///< E0 of the bond, Pa
-    double poisson_ratio = 0.2;        ///< of the bond: G = E / (2 (1 + nu))
-    double normal_factor = 1.0;        ///< a in k_n = a E A / L (5.34)
-    double shear_factor = 1.0;         ///< b in k_t = b G A / L
-    double local_damping = 0.0;        ///< xi of the dashpot c_n = 2 xi sqrt(m_eq k_n) in each bond
-    double contact_restitution = 0.2;  ///< normal restitution of new contacts
+    double density = 2500.0;          ///< of a sphere, kg/m3
+    double young_modulus = 28.0e9;    ///< E0 of the bond, Pa
+    double poisson_ratio = 0.2;       ///< of the bond: G = E / (2 (1 + nu))
+    double normal_factor = 1.0;       ///< a in k_n = a E A / L (5.34)
+    double shear_factor = 1.0;        ///< b in k_t = b G A / L
+    double local_damping = 0.0;       ///< xi of the dashpot c_n = 2 xi sqrt(m_eq k_n) in each bond
+    double contact_restitution = 0.2; ///< normal restitution of new contacts
     AreaRule area_rule = AreaRule::virtual_polyhedron;
-    double area_factor = 1.0;          ///< global alpha on the areas (5.4-5.6)
-    dempack::Parameters bond;          ///< `shear_ratio` is derived, see `bond_law`
+    double area_factor = 1.0; ///< global alpha on the areas (5.4-5.6)
+    dempack::Parameters bond; ///< `shear_ratio` is derived, see `bond_law`
 };
 
 /// The law's parameters for bonds of one material: the card's, with k_t / k_n = b / (2 (1 + nu) a) (5.17).

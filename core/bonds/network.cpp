@@ -42,14 +42,13 @@ BondView Bonds::view() {
             area.data(),
             stiffness.data(),
             dashpot.data(),
-            forces.share_i.data(),
             {slip.x.data(), slip.y.data(), slip.z.data()},
             plastic.data(),
             damage_n.data(),
             damage_t.data(),
             damage_work.data(),
             mode.data(),
-            forces.view(),
+            forces.data(),
             normal.data(),
             shear.data(),
             criterion.data(),
@@ -73,7 +72,7 @@ std::vector<Pair> bonded_pairs(const Spheres& spheres, const BondingRule& rule, 
         }
         auto sorted = needed;
         std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(wanted - 1), sorted.end());
-        beta = std::max(sorted[wanted - 1], 0.0);    // overlapping pairs are always bonded
+        beta = std::max(sorted[wanted - 1], 0.0); // overlapping pairs are always bonded
         std::vector<Pair> kept;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
             if (needed[k] <= beta) {
@@ -130,7 +129,7 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
             const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
             b.dashpot[at] = 2.0 * m.local_damping * std::sqrt(reduced * b.stiffness[at]);
             b.damped = b.damped || m.local_damping > 0.0;
-            b.forces.share_i[at] = 0.5 * (d + spheres.radius[i] - spheres.radius[j]) / d;
+            b.forces[at].share_i = 0.5 * (d + spheres.radius[i] - spheres.radius[j]) / d;
         }
         for (std::size_t k = first; k < at; k += bond_block) {
             b.blocks.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(at, k + bond_block)), law});

@@ -37,7 +37,7 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
         const double r = spheres.radius[s];
         const double touch = p.capped[s] > 0.0 ? p.capped[s] : r;
         const double distance = (spheres.position.z[s] - p.position) * p.inward;
-        if (distance > touch + skin || distance < 0.0) {    // behind the plane: escaped, not pressed
+        if (distance > touch + skin || distance < 0.0) { // behind the plane: escaped, not pressed
             continue;
         }
         const Material& m = materials[static_cast<std::size_t>(spheres.material[s])];

@@ -21,17 +21,17 @@ struct PlatenEnergies {
 /// end, so that the platen adds no compliance of its own. Spheres that lie within `capping` of the plane at the start touch it
 /// then, without force, as a ground or capped end does.
 struct Platen {
-    double position = 0.0;                                         ///< m
-    double velocity = 0.0;                                         ///< of the last move, m/s
+    double position = 0.0; ///< m
+    double velocity = 0.0; ///< of the last move, m/s
     double inward = 1.0;
-    double friction = 0.0;                                         ///< mu; infinity: glued sideways
-    std::vector<std::int32_t> sphere;                              ///< listed spheres, ascending
-    std::vector<double> contact_distance;                          ///< m
-    std::vector<double> stiffness, shear_stiffness;                ///< N/m
-    std::vector<double> slip_x, slip_y;                            ///< elastic tangential displacement, m
-    std::vector<double> capped;                                    ///< per sphere of the specimen: contact distance from the start, m; 0: none
-    double area_weight = 1.0;                                      ///< contact area over pi R^2
-    Vec3 reaction = Vec3::Zero();                                  ///< force of the specimen on the platen, N
+    double friction = 0.0;                          ///< mu; infinity: glued sideways
+    std::vector<std::int32_t> sphere;               ///< listed spheres, ascending
+    std::vector<double> contact_distance;           ///< m
+    std::vector<double> stiffness, shear_stiffness; ///< N/m
+    std::vector<double> slip_x, slip_y;             ///< elastic tangential displacement, m
+    std::vector<double> capped;                     ///< per sphere of the specimen: contact distance from the start, m; 0: none
+    double area_weight = 1.0;                       ///< contact area over pi R^2
+    Vec3 reaction = Vec3::Zero();                   ///< force of the specimen on the platen, N
     int touching = 0;
 
     /// Moves the plane by velocity dt.

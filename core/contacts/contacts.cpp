@@ -19,6 +19,11 @@ void Contacts::resize(std::size_t n) {
     forces.resize(n);
 }
 
+double lever_share(const Spheres& spheres, std::int32_t i, std::int32_t j) {
+    const double r_i = spheres.radius[static_cast<std::size_t>(i)];
+    return r_i / (r_i + spheres.radius[static_cast<std::size_t>(j)]);
+}
+
 namespace {
 
 bool bonded(const Bonds& bonds, const Pair& p) {
@@ -42,7 +47,7 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::
 
     Contacts c;
     c.resize(pairs.size());
-    std::size_t before = 0;    // both lists are sorted by (i, j)
+    std::size_t before = 0; // both lists are sorted by (i, j)
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const auto [a, b] = pairs[k];
         const auto i = static_cast<std::size_t>(a);
@@ -51,15 +56,15 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::
         c.j[k] = b;
         const double touch = spheres.radius[i] + spheres.radius[j];
         c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), touch);
-        const Material m = equivalent(materials[static_cast<std::size_t>(spheres.material[i])],
-                                      materials[static_cast<std::size_t>(spheres.material[j])]);
+        const Material m =
+            equivalent(materials[static_cast<std::size_t>(spheres.material[i])], materials[static_cast<std::size_t>(spheres.material[j])]);
         const double area = contact_area(m.area_rule, spheres.radius[i], spheres.radius[j], weight[i], weight[j]);
         c.stiffness[k] = m.normal_factor * m.young_modulus * area / touch;
         c.shear_stiffness[k] = bond_law(m).shear_ratio * c.stiffness[k];
         const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
         c.dashpot[k] = 2.0 * linear::damping_ratio(m.contact_restitution) * std::sqrt(reduced * c.stiffness[k]);
         c.friction[k] = m.bond.mu_d;
-        c.forces.share_i[k] = spheres.radius[i] / touch;
+        c.forces[k].share_i = lever_share(spheres, a, b);
         while (before < old.size() && Pair{old.i[before], old.j[before]} < pairs[k]) {
             ++before;
         }
@@ -75,20 +80,19 @@ ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, doubl
     constexpr std::size_t block = 512;
     const std::size_t n = contacts.size();
     const SphereView view = spheres.view();
-    const PairForceView out = contacts.forces.view();
     std::vector<ContactEnergies> parts((n + block - 1) / block);
 #pragma omp parallel for schedule(static) if (n > 4 * block)
     for (std::size_t part = 0; part < parts.size(); ++part) {
         for (std::size_t k = part * block; k < std::min(n, (part + 1) * block); ++k) {
             const double old[3] = {contacts.slip.x[k], contacts.slip.y[k], contacts.slip.z[k]};
-            auto pair = pair_kinematics<double>(view, &contacts.i[k], &contacts.j[k], contacts.forces.share_i[k], old, dt);
+            auto pair = pair_kinematics<double>(view, &contacts.i[k], &contacts.j[k], contacts.forces[k].share_i, old, dt);
             const linear::Parameters<double> p{contacts.stiffness[k], contacts.shear_stiffness[k], contacts.dashpot[k],
                                                contacts.friction[k]};
-            const auto r = linear::advance<double>(p, contacts.contact_distance[k] - pair.distance, -pair.separation * dt, dt, pair.slip,
-                                                   pair.turned);
+            const auto r =
+                linear::advance<double>(p, contacts.contact_distance[k] - pair.distance, -pair.separation * dt, dt, pair.slip, pair.turned);
             contacts.slip.set(k, {pair.turned[0], pair.turned[1], pair.turned[2]});
             contacts.normal[k] = r.normal;
-            store_pair_forces(out, k, pair, r.normal, r.shear);
+            store_pair_forces(&contacts.forces[k], pair, r.normal, r.shear);
             parts[part].stored += r.stored;
             parts[part].friction += r.friction_work;
             parts[part].dashpot += r.dashpot_work;

@@ -27,18 +27,18 @@ inline double damping_ratio(double restitution) {
 
 /// One contact's constants. Units as in the table above; mu may be infinite (no slip).
 template <class T> struct Parameters {
-    T k_n;    ///< N/m
-    T k_t;    ///< N/m
-    T c_n;    ///< N s/m
+    T k_n; ///< N/m
+    T k_t; ///< N/m
+    T c_n; ///< N s/m
     T mu;
 };
 
 template <class T> struct Response {
-    T normal;           ///< F_n with dashpot, N
-    T shear[3];         ///< force of j on i, N
-    T stored;           ///< energy of the springs, J
-    T friction_work;    ///< J
-    T dashpot_work;     ///< J
+    T normal;        ///< F_n with dashpot, N
+    T shear[3];      ///< force of j on i, N
+    T stored;        ///< energy of the springs, J
+    T friction_work; ///< J
+    T dashpot_work;  ///< J
 };
 
 /// One step of one contact. overlap in m (negative: apart), approach: its increase in the step, m; dt in s; slip in m; u_t is brought to
@@ -60,7 +60,7 @@ inline Response<T> advance(const Parameters<T>& p, const T& overlap, const T& ap
         trial[c] = u_t[c] + slip[c];
     }
     const T force = p.k_t * sqrt(trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2]);
-    const T coulomb = select(touching, p.mu * r.normal, zero);    // an infinite mu still needs contact
+    const T coulomb = select(touching, p.mu * r.normal, zero); // an infinite mu still needs contact
     const T scale = select(force > coulomb, coulomb / max(force, T(1e-300)), T(1.0));
     r.friction_work = zero;
     T u2 = zero;

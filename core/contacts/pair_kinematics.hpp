@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/contacts/pair_force.hpp"
 #include "core/geometry/lanes.hpp"
 #include "core/particles/sphere_view.hpp"
 
@@ -11,10 +12,10 @@ namespace proveta {
 /// Motion of a pair (or of a vector of pairs) over one step. n points from i to j.
 template <class T> struct PairKinematics {
     T n[3];
-    T distance;      ///< of the centres, m
-    T separation;    ///< speed at which the centres part, m/s
-    T slip[3];       ///< tangential displacement of j's contact point against i's in the step, m
-    T turned[3];     ///< the old tangential displacement, carried with the pair's frame, m
+    T distance;   ///< of the centres, m
+    T separation; ///< speed at which the centres part, m/s
+    T slip[3];    ///< tangential displacement of j's contact point against i's in the step, m
+    T turned[3];  ///< the old tangential displacement, carried with the pair's frame, m
 };
 
 /// Geometry and relative motion of the pairs i[0..], j[0..] (2.6-2.13). share: lever arm of i over the distance; u: tangential
@@ -55,27 +56,30 @@ inline PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t
         const int q = (c + 2) % 3;
         const T tangential = dv[c] - k.separation * n[c];
         k.slip[c] = (tangential - (w[p] * n[q] - w[q] * n[p])) * dt;
-        const T turn = tangential * inverse * dt;    // change of n in the step
+        const T turn = tangential * inverse * dt; // change of n in the step
         k.turned[c] = u[c] * shrink + twist * (n[p] * u[q] - n[q] * u[p]) - out_of_plane * (n[c] - 0.5 * turn);
         k.n[c] = n[c];
     }
     return k;
 }
 
-/// Where a kernel leaves the force on i and the moment (distance n x force) of each pair.
-struct PairForceView {
-    double* force[3];
-    double* moment[3];
-};
-
-/// Writes pair b: normal force (compression positive) and shear force of j on i, N.
-template <class T>
-inline void store_pair_forces(const PairForceView& out, std::size_t b, const PairKinematics<T>& k, const T& normal, const T (&shear)[3]) {
+/// Writes pairs out[0], out[1], ...: normal force (compression positive) and shear force of j on i, N.
+template <class T> inline void store_pair_forces(PairForce* out, const PairKinematics<T>& k, const T& normal, const T (&shear)[3]) {
+    constexpr std::size_t stride = sizeof(PairForce) / sizeof(double);
     for (int c = 0; c < 3; ++c) {
         const int p = (c + 1) % 3;
         const int q = (c + 2) % 3;
-        store(&out.force[c][b], shear[c] - normal * k.n[c]);
-        store(&out.moment[c][b], k.distance * (k.n[p] * shear[q] - k.n[q] * shear[p]));
+        scatter<stride>(&out->force[c], shear[c] - normal * k.n[c]);
+        scatter<stride>(&out->moment[c], k.distance * (k.n[p] * shear[q] - k.n[q] * shear[p]));
+    }
+}
+
+/// Lever shares of pairs in[0], in[1], ...
+template <class T> inline T load_shares(const PairForce* in) {
+    if constexpr (std::is_same_v<T, double>) {
+        return in->share_i;
+    } else {
+        return T([&](auto lane) { return in[lane].share_i; });
     }
 }
 

@@ -67,9 +67,8 @@ std::vector<std::uint32_t> hilbert_order(const VectorField& positions) {
     std::vector<std::uint64_t> keys(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Vec3 at = (positions.at(k) - low) / extent * cells;
-        keys[k] = hilbert_key({static_cast<std::uint32_t>(at.x()), static_cast<std::uint32_t>(at.y()),
-                               static_cast<std::uint32_t>(at.z())},
-                              bits);
+        keys[k] =
+            hilbert_key({static_cast<std::uint32_t>(at.x()), static_cast<std::uint32_t>(at.y()), static_cast<std::uint32_t>(at.z())}, bits);
     }
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return keys[a] < keys[b]; });
     return order;

@@ -61,6 +61,19 @@ template <class T, class Index> inline T gather(const double* p, const Index* in
     }
 }
 
+/// Lane k to p[k stride].
+template <std::size_t stride, class T> inline void scatter(double* p, const T& value) {
+    if constexpr (std::is_same_v<T, double>) {
+        *p = value;
+    } else {
+        alignas(64) double lanes[T::size()];
+        value.copy_to(lanes, std::experimental::vector_aligned);
+        for (std::size_t k = 0; k < T::size(); ++k) {
+            p[k * stride] = lanes[k];
+        }
+    }
+}
+
 /// One lane of a number.
 template <class T> inline double in_lane(const T& value, std::size_t k) {
     if constexpr (std::is_same_v<T, double>) {

@@ -23,7 +23,7 @@ enum class Unit { none, length, area, pressure, density, velocity, time, energy_
 struct Bounds {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
-    bool low_open = false;     ///< low itself is not allowed
+    bool low_open = false; ///< low itself is not allowed
     bool high_open = false;
 
     [[nodiscard]] bool contains(double x) const { return (low_open ? x > low : x >= low) && (high_open ? x < high : x <= high); }
@@ -45,7 +45,7 @@ struct Choice {
 /// A number, or one of a few words that stand for a rule ("auto", "glued").
 struct NumberOrWord {
     double number = 0.0;
-    std::string word;    ///< empty: the number counts
+    std::string word; ///< empty: the number counts
 };
 
 /// Walks over the declared parameters of a struct. Keys are unique within a section.

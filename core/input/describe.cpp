@@ -28,9 +28,7 @@ void Describer::integer(const char* key, std::int64_t& value, std::int64_t low, 
     add(key, meaning, Unit::none, fmt::format("{}", value), fmt::format("whole number from {} to {}", low, high));
 }
 
-void Describer::text(const char* key, std::string& value, const char* meaning) {
-    add(key, meaning, Unit::none, '"' + value + '"', "text");
-}
+void Describer::text(const char* key, std::string& value, const char* meaning) { add(key, meaning, Unit::none, '"' + value + '"', "text"); }
 
 void Describer::choice(const char* key, std::string& value, const std::vector<Choice>& choices, const char* meaning) {
     std::string allowed;
@@ -74,8 +72,8 @@ std::string as_text(const std::vector<ParameterInfo>& parameters) {
         if (p.section) {
             out += fmt::format("{}\n    {}\n", p.path, p.meaning);
         } else {
-            out += fmt::format("{}{}\n    {}\n    default {}; {}\n", p.path, p.unit.empty() ? "" : " [" + p.unit + "]", p.meaning, p.fallback,
-                               p.allowed);
+            out += fmt::format("{}{}\n    {}\n    default {}; {}\n", p.path, p.unit.empty() ? "" : " [" + p.unit + "]", p.meaning,
+                               p.fallback, p.allowed);
         }
     }
     return out;

@@ -10,10 +10,10 @@ namespace proveta::input {
 
 /// One declared parameter, ready to print.
 struct ParameterInfo {
-    std::string path;        ///< dotted, e.g. "loading.stop.axial_strain"
+    std::string path; ///< dotted, e.g. "loading.stop.axial_strain"
     std::string meaning;
-    std::string unit;        ///< SI unit, or empty
-    std::string fallback;    ///< default
+    std::string unit;     ///< SI unit, or empty
+    std::string fallback; ///< default
     std::string allowed;
     bool section = false;
 };

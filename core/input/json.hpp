@@ -13,11 +13,11 @@ using Json = nlohmann::ordered_json;
 
 /// One thing wrong with the user's input.
 struct Problem {
-    std::string source;        ///< file
-    std::string path;          ///< JSON pointer, "" for the whole file
+    std::string source; ///< file
+    std::string path;   ///< JSON pointer, "" for the whole file
     std::string found;
     std::string expected;
-    std::string suggestion;    ///< may be empty
+    std::string suggestion; ///< may be empty
 
     [[nodiscard]] std::string text() const;
 };
@@ -48,7 +48,7 @@ template <class T> Json schema(const T& defaults);
 class JsonReader : public Visitor {
   public:
     JsonReader(const Json& json, std::string source, std::string path, Problems& problems);
-    void finish();    ///< reports unknown keys of the outermost object
+    void finish(); ///< reports unknown keys of the outermost object
 
     void number(const char*, double&, Unit, const Bounds&, const char*) override;
     void number_or_word(const char*, NumberOrWord&, const std::vector<Choice>&, Unit, const Bounds&, const char*) override;
@@ -127,7 +127,7 @@ class SchemaWriter : public Visitor {
 
   private:
     std::vector<Json> stack_{new_object()};
-    std::vector<std::pair<std::string, std::string>> names_;    // key and meaning of open sections
+    std::vector<std::pair<std::string, std::string>> names_; // key and meaning of open sections
     static Json new_object();
 };
 

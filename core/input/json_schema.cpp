@@ -33,7 +33,8 @@ Json quantity(Unit unit, const Bounds& bounds) {
     for (const auto& u : accepted_units(unit)) {
         units.push_back(escaped(u));
     }
-    const Json text = {{"type", "string"}, {"pattern", fmt::format("^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*({})?\\s*$", fmt::join(units, "|"))}};
+    const Json text = {{"type", "string"},
+                       {"pattern", fmt::format("^\\s*[-+]?[0-9.]+([eE][-+]?[0-9]+)?\\s*({})?\\s*$", fmt::join(units, "|"))}};
     return {{"anyOf", Json::array({number, text})}};
 }
 

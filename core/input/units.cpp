@@ -18,7 +18,7 @@ const std::vector<Named>& table(Unit unit) {
     static const std::vector<Named> none{{"", 1.0}, {"%", 1e-2}};
     static const std::vector<Named> length{{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"um", 1e-6}};
     static const std::vector<Named> area{{"m2", 1.0}, {"cm2", 1e-4}, {"mm2", 1e-6}};
-    static const std::vector<Named> pressure{{"Pa", 1.0},  {"kPa", 1e3},    {"MPa", 1e6},   {"GPa", 1e9},
+    static const std::vector<Named> pressure{{"Pa", 1.0},  {"kPa", 1e3},   {"MPa", 1e6},  {"GPa", 1e9},
                                              {"bar", 1e5}, {"N/mm2", 1e6}, {"kN/m2", 1e3}};
     static const std::vector<Named> density{{"kg/m3", 1.0}, {"g/cm3", 1e3}, {"t/m3", 1e3}};
     static const std::vector<Named> velocity{{"m/s", 1.0}, {"mm/s", 1e-3}, {"um/s", 1e-6}, {"mm/min", 1e-3 / 60.0}};

@@ -17,8 +17,8 @@ std::vector<std::string> accepted_units(Unit unit);
 
 /// Result of reading a text such as "28 GPa".
 struct Quantity {
-    double value = 0.0;     ///< SI
-    std::string problem;    ///< empty when all went well
+    double value = 0.0;  ///< SI
+    std::string problem; ///< empty when all went well
 };
 
 /// Reads a number and its unit ("150 mm", "0.3", "60 %"). Never throws; NaN and infinities are problems.

@@ -12,14 +12,16 @@ struct Sum {
     Vec3 torque = Vec3::Zero();
 };
 
-void gather_pairs(const PairForces& pairs, const Incidence& incidence, std::size_t sphere, Sum& sum) {
+void gather_pairs(const std::vector<PairForce>& pairs, const Incidence& incidence, std::size_t sphere, Sum& sum) {
     for (auto k = incidence.offset[sphere]; k < incidence.offset[sphere + 1]; ++k) {
-        const auto pair = incidence.entry[k] >> 1;
+        const PairForce& pair = pairs[incidence.entry[k] >> 1];
         const bool second = (incidence.entry[k] & 1u) != 0;
         const double sign = second ? -1.0 : 1.0;
-        const double share = second ? 1.0 - pairs.share_i[pair] : pairs.share_i[pair];
-        sum.force += sign * pairs.force.at(pair);
-        sum.torque += share * pairs.moment.at(pair);
+        const double share = second ? 1.0 - pair.share_i : pair.share_i;
+        for (int c = 0; c < 3; ++c) {
+            sum.force[c] += sign * pair.force[c];
+            sum.torque[c] += share * pair.moment[c];
+        }
     }
 }
 

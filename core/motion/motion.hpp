@@ -9,16 +9,16 @@ namespace proveta {
 
 /// Background damping (5.18-5.19): F_damp = -alpha_t |F| v / |v|, T_damp = -alpha_r |T| w / |w|.
 struct BackgroundDamping {
-    double translation = 0.2;    ///< alpha_t, 0 to 1
-    double rotation = 0.2;       ///< alpha_r, 0 to 1
+    double translation = 0.2; ///< alpha_t, 0 to 1
+    double rotation = 0.2;    ///< alpha_r, 0 to 1
 };
 
 /// Sums over the spheres of one step.
 struct MotionSums {
-    double damping_work = 0.0;     ///< taken out by background damping in the step, J
-    double fastest = 0.0;          ///< largest speed, m/s
-    double kinetic = 0.0;          ///< at the time of the forces (only when measuring), J
-    double unbalanced = 0.0;       ///< sum of |F| over spheres (only when measuring), N
+    double damping_work = 0.0; ///< taken out by background damping in the step, J
+    double fastest = 0.0;      ///< largest speed, m/s
+    double kinetic = 0.0;      ///< at the time of the forces (only when measuring), J
+    double unbalanced = 0.0;   ///< sum of |F| over spheres (only when measuring), N
 };
 
 /// Sums pair forces per sphere in a fixed order, applies damping and advances velocities and positions by dt: v(t + dt/2) from

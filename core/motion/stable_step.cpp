@@ -55,7 +55,7 @@ void add_pairs(const Spheres& s, const Pairs& pairs, const std::vector<double>& 
         const auto other = static_cast<std::size_t>(second ? pairs.i[p] : pairs.j[p]);
         const Vec3 to = s.position.at(other) - s.position.at(sphere);
         const double d = to.norm();
-        const double share = second ? 1.0 - pairs.forces.share_i[p] : pairs.forces.share_i[p];
+        const double share = second ? 1.0 - pairs.forces[p].share_i : pairs.forces[p].share_i;
         block.add(to / d, pairs.stiffness[p], k_t[p], pairs.dashpot[p], share * d, 1.0 + g[other] / g[sphere]);
     }
 }
@@ -102,7 +102,7 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
 
 double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens) const {
     const auto k_t = shear_stiffness(bonds);
-    std::vector<std::vector<std::pair<std::size_t, std::size_t>>> walls(s.size());    // (platen, entry) of each sphere
+    std::vector<std::vector<std::pair<std::size_t, std::size_t>>> walls(s.size()); // (platen, entry) of each sphere
     for (std::size_t p = 0; p < platens.size(); ++p) {
         for (std::size_t e = 0; e < platens[p].sphere.size(); ++e) {
             walls[static_cast<std::size_t>(platens[p].sphere[e])].emplace_back(p, e);
@@ -136,7 +136,7 @@ double largest_eigenvalue(const Spheres& s, const Bonds& bonds, int iterations) 
     }
     Vec x(6 * n);
     for (Eigen::Index k = 0; k < 6 * n; ++k) {
-        x[k] = std::sin(12.9898 * static_cast<double>(k + 1));    // any start that is not orthogonal to the mode sought
+        x[k] = std::sin(12.9898 * static_cast<double>(k + 1)); // any start that is not orthogonal to the mode sought
     }
     double lambda = 0.0;
     for (int it = 0; it < iterations; ++it) {
@@ -150,7 +150,7 @@ double largest_eigenvalue(const Spheres& s, const Bonds& bonds, int iterations) 
             const Vec3 to = s.position.at(j) - s.position.at(i);
             const double d = to.norm();
             const Vec3 n_ij = to / d;
-            const double l_i = bonds.forces.share_i[b] * d;
+            const double l_i = bonds.forces[b].share_i * d;
             const double l_j = d - l_i;
             const Vec3 rel = q.segment<3>(c) - q.segment<3>(a) - (l_i * q.segment<3>(a + 3) + l_j * q.segment<3>(c + 3)).cross(n_ij);
             const Vec3 along = n_ij * n_ij.dot(rel);

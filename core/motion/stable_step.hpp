@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/boundaries/platen.hpp"
 #include "core/bonds/bonds.hpp"
+#include "core/boundaries/platen.hpp"
 #include "core/contacts/contacts.hpp"
 #include "core/particles/spheres.hpp"
 
@@ -24,8 +24,8 @@ class StepBound {
                                const std::vector<Platen>& platens) const;
 
   private:
-    std::vector<double> share_;     // g for bonds, tuned to their network
-    std::vector<double> single_;    // g for any other pair: the sphere's own frequency
+    std::vector<double> share_;  // g for bonds, tuned to their network
+    std::vector<double> single_; // g for any other pair: the sphere's own frequency
 };
 
 /// Largest eigenvalue of M^-1 K of the undamaged bond network by power iteration, rad2/s2; a check on the bound.

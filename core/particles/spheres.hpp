@@ -12,20 +12,20 @@ namespace proveta {
 /// Spheres of a specimen. All arrays have one entry per sphere; SI units. Velocities live half a step behind the positions (leapfrog
 /// form of velocity Verlet): `position` at time t, `velocity` and `spin` at t - dt/2 when a step begins.
 struct Spheres {
-    VectorField position;          ///< centres, m
-    VectorField velocity;          ///< m/s
-    VectorField spin;              ///< angular velocity, rad/s
-    VectorField force;             ///< sum of contact, bond and external forces, without background damping, N
-    VectorField torque;            ///< N m
-    VectorField external_force;    ///< from boundaries, N
-    VectorField external_torque;   ///< N m
-    VectorField start;             ///< centres at the start of the test, m
-    std::vector<double> radius;    ///< m
-    std::vector<double> mass;      ///< kg
-    std::vector<double> inertia;   ///< 2/5 m R^2, kg m^2
-    std::vector<int> group;        ///< cohesive group: only spheres of one group are bonded
-    std::vector<int> material;     ///< index into the model's materials
-    std::vector<std::int64_t> id;  ///< number in the file or recipe that the sphere came from
+    VectorField position;         ///< centres, m
+    VectorField velocity;         ///< m/s
+    VectorField spin;             ///< angular velocity, rad/s
+    VectorField force;            ///< sum of contact, bond and external forces, without background damping, N
+    VectorField torque;           ///< N m
+    VectorField external_force;   ///< from boundaries, N
+    VectorField external_torque;  ///< N m
+    VectorField start;            ///< centres at the start of the test, m
+    std::vector<double> radius;   ///< m
+    std::vector<double> mass;     ///< kg
+    std::vector<double> inertia;  ///< 2/5 m R^2, kg m^2
+    std::vector<int> group;       ///< cohesive group: only spheres of one group are bonded
+    std::vector<int> material;    ///< index into the model's materials
+    std::vector<std::int64_t> id; ///< number in the file or recipe that the sphere came from
 
     [[nodiscard]] std::size_t size() const { return radius.size(); }
 

@@ -105,8 +105,9 @@ int describe(const std::string& name) {
         auto parameters = parameters_of(test);
         std::vector<input::ParameterInfo> found = parameters;
         keep_prefix(found, name);
-        if (found.empty()) {    // the last part of a path is enough
-            std::copy_if(parameters.begin(), parameters.end(), std::back_inserter(found), [&](const auto& p) { return p.path.ends_with("." + name); });
+        if (found.empty()) { // the last part of a path is enough
+            std::copy_if(parameters.begin(), parameters.end(), std::back_inserter(found),
+                         [&](const auto& p) { return p.path.ends_with("." + name); });
         }
         if (!found.empty()) {
             fmt::print("{}", input::as_text(found));

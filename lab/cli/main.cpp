@@ -39,7 +39,8 @@ int main(int argc, char** argv) {
     for (int k = 1; k < argc; ++k) {
         typed += std::string(" ") + argv[k];
     }
-    CLI::App app{"Proveta, a virtual materials laboratory: makes a specimen out of bonded spheres, puts it in the press and breaks it.", "proveta"};
+    CLI::App app{"Proveta, a virtual materials laboratory: makes a specimen out of bonded spheres, puts it in the press and breaks it.",
+                 "proveta"};
     app.set_version_flag("--version", proveta::version_text());
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the calculation failed, 130 interrupted.");

@@ -26,7 +26,8 @@ void print_info(const Specimen& s) {
         fmt::print("{:.5g} x {:.5g} x {:.5g} mm\n", 1e3 * s.shape.width, 1e3 * s.shape.depth, 1e3 * s.shape.height);
     }
     fmt::print("spheres              {}\n", st.spheres);
-    fmt::print("mean radius          {:.4f} mm, from {:.4f} to {:.4f}\n", 1e3 * st.mean_radius, 1e3 * st.smallest_radius, 1e3 * st.largest_radius);
+    fmt::print("mean radius          {:.4f} mm, from {:.4f} to {:.4f}\n", 1e3 * st.mean_radius, 1e3 * st.smallest_radius,
+               1e3 * st.largest_radius);
     fmt::print("relative deviation   {:.2f} %\n", 100 * st.relative_deviation);
     fmt::print("porosity             {:.2f} % (overlaps counted twice)\n", 100 * st.porosity);
     fmt::print("touching neighbours  {:.3f}\n", st.touching);
@@ -100,7 +101,8 @@ void add_make(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& cho
                 throw input::InputError(problems);
             }
             Progress progress(false);
-            const Specimen s = obtain_specimen(recipe, ".", source, [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
+            const Specimen s = obtain_specimen(
+                recipe, ".", source, [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
             progress.end_line();
             on_file(a->out, [&] { save_specimen(s, a->out); });
             print_info(s);
@@ -133,12 +135,16 @@ void add_export(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& c
 }
 
 void add_import(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& chosen) {
-    auto* command = group.add_subcommand("import", "read spheres from .csv/.txt/.xyzr (x y z r), Kratos .mdpa or GiD .msh and store them (.h5)");
+    auto* command =
+        group.add_subcommand("import", "read spheres from .csv/.txt/.xyzr (x y z r), Kratos .mdpa or GiD .msh and store them (.h5)");
     command->add_option("file", a->in, "file to read")->required();
     command->add_option("out", a->out, "file to write (.h5)")->required();
     command->add_option("--axis", a->axis, "the file's axis that is the specimen's")->check(CLI::IsMember({"x", "y", "z"}));
     command->add_option("--shape", a->import.shape, "cylinder or prism")->check(CLI::IsMember({"cylinder", "prism"}));
-    for (const auto& [option, value] : {std::pair{"--diameter", &a->import.diameter}, {"--width", &a->import.width}, {"--depth", &a->import.depth}, {"--height", &a->import.height}}) {
+    for (const auto& [option, value] : {std::pair{"--diameter", &a->import.diameter},
+                                        {"--width", &a->import.width},
+                                        {"--depth", &a->import.depth},
+                                        {"--height", &a->import.height}}) {
         command->add_option(option, *value, "nominal size in m (default: fitted to the spheres)")->check(CLI::PositiveNumber);
     }
     command->add_option("--scale", a->import.scale, "metres per unit of the file")->check(CLI::PositiveNumber);

@@ -24,9 +24,9 @@ struct Standard {
 
 /// Part 1: what the test is.
 struct ProtocolInfo {
-    std::string name;     ///< as in the deck
+    std::string name; ///< as in the deck
     std::string title;
-    std::string about;    ///< a paragraph for `describe`
+    std::string about; ///< a paragraph for `describe`
     std::vector<Standard> standards;
 };
 
@@ -34,15 +34,15 @@ struct ProtocolInfo {
 struct BenchView {
     const Model& model;
     const Shape& shape;
-    double wave_speed;                ///< of a bar of the material, m/s
-    const report::Table& curve;       ///< samples so far
+    double wave_speed;          ///< of a bar of the material, m/s
+    const report::Table& curve; ///< samples so far
 };
 
 /// Parts 2 and 3: a piece of the test with its control. Times in s since the stage began.
 struct Stage {
     std::string name;
-    std::function<std::vector<double>(const BenchView&, double time)> speeds;    ///< of each platen, m/s
-    std::function<bool(const BenchView&, double time)> finished;                 ///< asked at samples; the last stage ends by stop rules
+    std::function<std::vector<double>(const BenchView&, double time)> speeds; ///< of each platen, m/s
+    std::function<bool(const BenchView&, double time)> finished;              ///< asked at samples; the last stage ends by stop rules
 };
 
 class Protocol {
@@ -55,7 +55,8 @@ class Protocol {
     /// The "loading" section.
     virtual void declare_loading(input::Visitor& v) = 0;
     /// What loading and specimen contradict.
-    virtual void check(const SpecimenRecipe& recipe, const std::string& source, const std::string& path, input::Problems& problems) const = 0;
+    virtual void check(const SpecimenRecipe& recipe, const std::string& source, const std::string& path,
+                       input::Problems& problems) const = 0;
 
     /// Boundaries for the specimen.
     [[nodiscard]] virtual std::vector<Platen> platens(const Spheres& spheres, const Shape& shape) const = 0;

@@ -43,7 +43,7 @@ class Ucs : public Protocol {
 
     // 2. Stages and 3. controls: platens in contact without load, then closing at the rate, both at half of it.
     [[nodiscard]] std::vector<Platen> platens(const Spheres& spheres, const Shape& shape) const override {
-        constexpr double capping = 0.1;    // of a radius: what an end's grinding or cap would level out
+        constexpr double capping = 0.1; // of a radius: what an end's grinding or cap would level out
         const double mu = friction_value(friction_);
         return {make_platen(spheres, 0.0, 1.0, mu, shape.section(), capping),
                 make_platen(spheres, shape.height, -1.0, mu, shape.section(), capping)};
@@ -100,19 +100,26 @@ class Ucs : public Protocol {
             return energy.rows.empty() ? std::nullopt : std::optional(energy.rows.back()[energy.column(what)]);
         };
         return {
-            {"strength", "Compressive strength", when_seen(f), "Pa", "largest mean platen stress, once the stress has fallen 5 % below it (ASTM C39)"},
+            {"strength", "Compressive strength", when_seen(f), "Pa",
+             "largest mean platen stress, once the stress has fallen 5 % below it (ASTM C39)"},
             {"strain_at_peak", "Strain at peak, platens", when_seen(stress.empty() ? 0.0 : nominal[peak]), "", "platen travel over height"},
-            {"gauge_strain_at_peak", "Strain at peak, middle gauge", when_seen(stress.empty() ? 0.0 : gauge[peak]), "", "middle gauge length"},
-            {"young_modulus", "Young's modulus E", e_gauge, "Pa", "slope of stress over middle gauge strain, 10 % to 33 % of the strength (EN 12390-13)"},
+            {"gauge_strain_at_peak", "Strain at peak, middle gauge", when_seen(stress.empty() ? 0.0 : gauge[peak]), "",
+             "middle gauge length"},
+            {"young_modulus", "Young's modulus E", e_gauge, "Pa",
+             "slope of stress over middle gauge strain, 10 % to 33 % of the strength (EN 12390-13)"},
             {"young_modulus_platens", "Modulus from platen travel", e_travel, "Pa", "the same with platen travel as strain"},
             {"tangent_modulus", "Tangent modulus at 50 %", tangent, "Pa", "slope between 40 % and 60 % of the strength (ASTM D7012)"},
-            {"secant_modulus", "Secant modulus at 50 %", half ? std::optional(0.5 * f / *half) : std::nullopt, "Pa", "half the strength over its gauge strain (ASTM D7012)"},
-            {"average_modulus", "Average modulus", average, "Pa", "slope of the straighter part, 20 % to 60 % of the strength (ASTM D7012)"},
+            {"secant_modulus", "Secant modulus at 50 %", half ? std::optional(0.5 * f / *half) : std::nullopt, "Pa",
+             "half the strength over its gauge strain (ASTM D7012)"},
+            {"average_modulus", "Average modulus", average, "Pa",
+             "slope of the straighter part, 20 % to 60 % of the strength (ASTM D7012)"},
             {"poisson_ratio", "Poisson's ratio", e_gauge && lateral_slope ? std::optional(-*e_gauge / *lateral_slope) : std::nullopt, "",
              "minus circumferential over gauge axial strain, 10 % to 33 % of the strength"},
-            {"post_peak_slope", "Post-peak slope", softening, "Pa", "stress over platen strain between 90 % and 60 % of the strength, falling"},
+            {"post_peak_slope", "Post-peak slope", softening, "Pa",
+             "stress over platen strain between 90 % and 60 % of the strength, falling"},
             {"work", "Work of the platens", dissipated("platens"), "J", "to the end of the test"},
-            {"damage_energy", "Energy dissipated by cracking", dissipated("damage"), "J", "damage and failure of bonds, to the end of the test"}};
+            {"damage_energy", "Energy dissipated by cracking", dissipated("damage"), "J",
+             "damage and failure of bonds, to the end of the test"}};
     }
 
   private:

@@ -22,9 +22,9 @@ struct Column {
 struct Table {
     std::vector<Column> columns;
     std::vector<std::vector<double>> rows;
-    std::vector<std::string> notes;    ///< conventions, one a line
+    std::vector<std::string> notes; ///< conventions, one a line
 
-    [[nodiscard]] std::size_t column(const std::string& name) const;    ///< throws std::out_of_range
+    [[nodiscard]] std::size_t column(const std::string& name) const; ///< throws std::out_of_range
     [[nodiscard]] std::vector<double> values(const std::string& name) const;
 };
 
@@ -41,8 +41,8 @@ struct Scalar {
 struct Badge {
     std::string name;
     bool good = false;
-    std::string verdict;                                           ///< one sentence
-    std::vector<std::pair<std::string, std::string>> figures;      ///< what was found against what is allowed
+    std::string verdict;                                      ///< one sentence
+    std::vector<std::pair<std::string, std::string>> figures; ///< what was found against what is allowed
 };
 
 /// A curve of a plot.
@@ -57,23 +57,23 @@ struct Plot {
     std::string title;
     std::string x_title, y_title;
     std::vector<Curve> curves;
-    std::vector<std::pair<double, double>> marks;    ///< points to mark
+    std::vector<std::pair<double, double>> marks; ///< points to mark
 };
 
 /// A line (bond, crack) or dot (sphere) of a specimen picture, in the plane of the cut, m.
 struct PictureDot {
-    double x, z, radius, value;    ///< value 0 to 1 colours it
+    double x, z, radius, value; ///< value 0 to 1 colours it
 };
 struct PictureLine {
     double x0, z0, x1, z1;
-    int mode;    ///< 1: tension, 2: shear
+    int mode; ///< 1: tension, 2: shear
 };
 
 /// A cut through a specimen.
 struct Picture {
     std::string title;
     std::string caption;
-    double width = 0.0, height = 0.0;    ///< m
+    double width = 0.0, height = 0.0; ///< m
     std::vector<PictureDot> dots;
     std::vector<PictureLine> lines;
 };
@@ -81,14 +81,14 @@ struct Picture {
 /// A table of texts with a heading.
 struct TextTable {
     std::string title;
-    std::vector<std::vector<std::string>> rows;    ///< the first row is the heading
+    std::vector<std::vector<std::string>> rows; ///< the first row is the heading
 };
 
 /// Everything that a page shows.
 struct Record {
     std::string title;
     std::string subtitle;
-    std::string status;    ///< complete, interrupted or failed
+    std::string status; ///< complete, interrupted or failed
     std::string stopped_by;
     std::vector<Scalar> results;
     std::vector<Badge> badges;

@@ -1,4 +1,4 @@
-#include "core/contacts/pair_forces.hpp"
+#include "core/contacts/incidence.hpp"
 
 namespace proveta {
 
