@@ -151,6 +151,33 @@ report::Geometry platen_fields(const Bench& bench) {
     return g;
 }
 
+namespace {
+
+// Value below which the given share of the values lies.
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) {
+        return 0.0;
+    }
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+// A crack lies across its bond: a stroke perpendicular to it in the plane of the picture, as long as the bond's contact area is wide.
+report::PictureLine stroke(const Model& m, std::size_t b) {
+    const auto i = static_cast<std::size_t>(m.bonds.i[b]);
+    const auto j = static_cast<std::size_t>(m.bonds.j[b]);
+    const Vec3 a = m.spheres.position.at(i);
+    const Vec3 to = m.spheres.position.at(j) - a;
+    const Vec3 middle = a + 0.5 * to;
+    const double flat = std::max(std::hypot(to.x(), to.z()), 1e-300);
+    const double reach = std::sqrt(m.bonds.area[b] / std::numbers::pi) * flat / to.norm();
+    const Vec3 half(-reach * to.z() / flat, 0.0, reach * to.x() / flat);
+    const double parted = (to - (m.spheres.start.at(j) - m.spheres.start.at(i))).norm();
+    return {middle.x() - half.x(), middle.z() - half.z(), middle.x() + half.x(), middle.z() + half.z(), m.bonds.mode[b], parted};
+}
+
+} // namespace
+
 report::Picture slice(const Bench& bench, const std::string& title) {
     const Model& m = *bench.model;
     const Shape& shape = bench.specimen.shape;
@@ -159,53 +186,37 @@ report::Picture slice(const Bench& bench, const std::string& title) {
     p.width = shape.kind == ShapeKind::cylinder ? shape.diameter : shape.width;
     p.height = shape.height;
     const double half = bench.statistics.mean_radius;
-    double widest = 0.0;
-    std::vector<std::size_t> shown;
     std::vector<double> sideways;
     for (std::size_t k = 0; k < m.spheres.size(); ++k) {
         if (std::fabs(m.spheres.start.y[k]) < half) {
-            shown.push_back(k);
-            const Vec3 moved = m.spheres.position.at(k) - m.spheres.start.at(k);
+            const Vec3 at = m.spheres.position.at(k);
+            const Vec3 moved = at - m.spheres.start.at(k);
             sideways.push_back(std::hypot(moved.x(), moved.y()));
+            p.dots.push_back({at.x(), at.z(), m.spheres.radius[k], sideways.back()});
         }
     }
-    if (!sideways.empty()) {
-        auto sorted = sideways;
-        std::sort(sorted.begin(), sorted.end());
-        widest = sorted[static_cast<std::size_t>(0.98 * static_cast<double>(sorted.size() - 1))];
-    }
-    for (std::size_t k = 0; k < shown.size(); ++k) {
-        const Vec3 at = m.spheres.position.at(shown[k]);
-        p.dots.push_back({at.x(), at.z(), m.spheres.radius[shown[k]], widest > 0.0 ? sideways[k] / widest : 0.0});
-    }
-    std::size_t cracks = 0;
+    std::vector<double> parted;
     for (std::size_t b = 0; b < m.bonds.size(); ++b) {
-        const auto i = static_cast<std::size_t>(m.bonds.i[b]);
-        const auto j = static_cast<std::size_t>(m.bonds.j[b]);
-        const bool near = std::fabs(0.5 * (m.spheres.start.y[i] + m.spheres.start.y[j])) < half;
-        if (m.bonds.mode[b] == 0 || !near) {
-            continue;
+        const auto y = [&](std::int32_t k) { return m.spheres.start.y[static_cast<std::size_t>(k)]; };
+        if (m.bonds.mode[b] != 0 && std::fabs(0.5 * (y(m.bonds.i[b]) + y(m.bonds.j[b]))) < half) {
+            p.lines.push_back(stroke(m, b));
+            parted.push_back(p.lines.back().weight);
         }
-        // A crack lies across its bond: a stroke perpendicular to it, as wide as the bond's contact area.
-        const Vec3 a = m.spheres.position.at(i);
-        const Vec3 c = m.spheres.position.at(j);
-        const double dx = c.x() - a.x();
-        const double dz = c.z() - a.z();
-        const double length = std::hypot(dx, dz);
-        if (length <= 0.0) {
-            continue;
-        }
-        const double reach = std::sqrt(m.bonds.area[b] / std::numbers::pi) * length / (c - a).norm();
-        const double mx = 0.5 * (a.x() + c.x());
-        const double mz = 0.5 * (a.z() + c.z());
-        p.lines.push_back(
-            {mx - reach * dz / length, mz + reach * dx / length, mx + reach * dz / length, mz - reach * dx / length, m.bonds.mode[b]});
-        ++cracks;
     }
-    p.caption = fmt::format(
-        "Slice through the axis, two mean radii thick. Shade: sideways displacement, up to {:.3g} mm. Strokes: {} failed bonds, "
-        "red in tension, amber in shear.",
-        1e3 * widest, cracks);
+    const double farthest = quantile(sideways, 0.98);
+    const double widest = quantile(parted, 0.98);
+    for (auto& dot : p.dots) {
+        dot.value /= std::max(farthest, 1e-300);
+    }
+    for (auto& line : p.lines) {
+        line.weight /= std::max(widest, 1e-300);
+    }
+    p.caption = fmt::format("Slice through the axis, two mean radii thick. Shade: sideways displacement, up to {:.3g} mm.", 1e3 * farthest);
+    if (!p.lines.empty()) {
+        p.caption += fmt::format(
+            " Strokes: {} failed bonds, red in tension, amber in shear, the bolder the wider they have opened (up to {:.2g} mm).",
+            p.lines.size(), 1e3 * widest);
+    }
     return p;
 }
 

@@ -14,16 +14,6 @@ namespace proveta {
 
 namespace {
 
-// Values for people: pressures in MPa or GPa, the rest as they are.
-report::Scalar readable(report::Scalar s) {
-    if (s.unit == "Pa" && s.value) {
-        const bool giga = std::fabs(*s.value) >= 1e9;
-        s.value = *s.value / (giga ? 1e9 : 1e6);
-        s.unit = giga ? "GPa" : "MPa";
-    }
-    return s;
-}
-
 report::Plot plot(const report::Table& t, const std::string& title, const std::string& x, double x_scale, const std::string& x_title,
                   const std::vector<std::tuple<std::string, std::string, std::string>>& ys, double y_scale, const std::string& y_title) {
     report::Plot p{title, x_title, y_title, {}, {}};
@@ -227,7 +217,7 @@ input::Json summary(const report::Record& r, const Bench& bench, double seconds)
 std::string as_text(const report::Record& r) {
     std::string out = fmt::format("{} ({}): {}\n", r.title, r.status, r.stopped_by);
     for (const auto& s : r.results) {
-        const auto shown = readable(s);
+        const auto shown = report::readable(s);
         out += shown.value ? fmt::format("  {:<28} {:>10.5g} {}\n", shown.title, *shown.value, shown.unit)
                            : fmt::format("  {:<28} not determined\n", shown.title);
     }

@@ -18,7 +18,7 @@ th{background:#f2f5f8}td.num{text-align:right;white-space:nowrap;font-variant-nu
 .badge{border-left:6px solid #1e7b46;background:#eef7f1;padding:.5rem .9rem;margin:.6rem 0}.badge.bad{border-color:#b03a2e;background:#fbeeec}
 .badge b{display:block}.warn{border-left:6px solid #b9770e;background:#fdf4e3;padding:.4rem .9rem;margin:.4rem 0}
 .row{display:flex;flex-wrap:wrap;gap:1rem}.row figure{flex:1 1 200px;max-width:320px;margin:0}
-.plot{flex:1 1 440px;margin:0}
+.row figure.plot{flex:1 1 440px;max-width:none}.row figure.plot:first-child{flex-basis:100%}
 figcaption{font-size:.85rem;color:#4a5866}
 svg{width:100%;height:auto}code{font-size:.88rem;overflow-wrap:anywhere}
 .status{display:inline-block;padding:.1rem .6rem;border-radius:1rem;background:#1e7b46;color:#fff;font-size:.85rem}.status.bad{background:#b03a2e}
@@ -28,7 +28,8 @@ svg{width:100%;height:auto}code{font-size:.88rem;overflow-wrap:anywhere}
 
 std::string results_table(const std::vector<Scalar>& results) {
     std::string out = "<div class=\"scroll\"><table><tr><th>Result</th><th>Value</th><th>Unit</th><th>How it is found</th></tr>\n";
-    for (const auto& r : results) {
+    for (const auto& result : results) {
+        const Scalar r = readable(result);
         const std::string value = r.value ? fmt::format("{:.5g}", *r.value) : "not determined";
         out += fmt::format("<tr><td>{}</td><td class=\"num\">{}</td><td>{}</td><td>{}</td></tr>\n", escape(r.title), value, escape(r.unit),
                            escape(r.formula));
@@ -63,8 +64,7 @@ std::string to_html(const Record& r) {
     }
     out += "<h2>Curves</h2>\n<div class=\"row\">\n";
     for (const auto& p : r.plots) {
-        out += fmt::format("<figure class=\"plot\" style=\"max-width:none\">{}<figcaption>{}</figcaption></figure>\n", to_svg(p),
-                           escape(p.title));
+        out += fmt::format("<figure class=\"plot\">{}<figcaption>{}</figcaption></figure>\n", to_svg(p), escape(p.title));
     }
     out += "</div>\n<h2>Results</h2>\n" + results_table(r.results);
     for (const auto& b : r.badges) {

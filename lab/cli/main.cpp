@@ -7,8 +7,24 @@
 #include <new>
 
 #include "core/input/json.hpp"
+#include "core/input/suggest.hpp"
 #include "lab/cli/commands.hpp"
 #include "lab/provenance.hpp"
+
+namespace proveta {
+
+// Message for a first word that is no command.
+std::string unknown_command(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> names;
+    for (const auto* command : app.get_subcommands(nullptr)) {
+        names.push_back(command->get_name());
+    }
+    const std::string best = input::nearest(word, names);
+    return fmt::format("\"{}\" is no command; expected one of {}{}", word, fmt::join(names, ", "),
+                       best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best));
+}
+
+} // namespace proveta
 
 namespace {
 
@@ -53,6 +69,11 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
+        const bool unknown = dynamic_cast<const CLI::RequiredError*>(&e) != nullptr && app.get_subcommands().empty() && argc > 1;
+        if (unknown) {
+            spdlog::error("{}", proveta::unknown_command(app, argv[1]));
+            return proveta::exit_input;
+        }
         return app.exit(e) == 0 ? 0 : proveta::exit_input;
     }
     return guarded(chosen);

@@ -1,5 +1,6 @@
 #include "reports/record/record.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace proveta::report {
@@ -21,6 +22,18 @@ std::vector<double> Table::values(const std::string& name) const {
         out.push_back(row[k]);
     }
     return out;
+}
+
+Scalar readable(Scalar s) {
+    if (s.unit == "Pa" && s.value) {
+        const bool giga = std::fabs(*s.value) >= 1e9;
+        s.value = *s.value / (giga ? 1e9 : 1e6);
+        s.unit = giga ? "GPa" : "MPa";
+    } else if (s.value && s.name.find("strain") != std::string::npos) {
+        s.value = *s.value * 100.0;
+        s.unit = "%";
+    }
+    return s;
 }
 
 } // namespace proveta::report

@@ -37,6 +37,9 @@ struct Scalar {
     std::string formula;
 };
 
+/// A result in the unit that people use: stresses in MPa, from 1 GPa on in GPa; strains in %. The rest unchanged.
+Scalar readable(Scalar scalar);
+
 /// A judgement with its figures.
 struct Badge {
     std::string name;
@@ -66,7 +69,8 @@ struct PictureDot {
 };
 struct PictureLine {
     double x0, z0, x1, z1;
-    int mode; ///< 1: tension, 2: shear
+    int mode;      ///< 1: tension, 2: shear
+    double weight; ///< how wide the crack is, 0 to 1
 };
 
 /// A cut through a specimen.

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Sets up Proveta on a fresh Debian 12 machine and does the main job.
+#   ./bootstrap.sh run    install, build, run examples/ucs.json into results/ucs
+#   ./bootstrap.sh test   install, build, run the tests (unit, verification, system)
+#   ./bootstrap.sh build  install and build only
+set -euo pipefail
+cd "$(dirname "$0")"
+build=build/release
+node_tools=build/node
+
+install_packages() {
+    local wanted missing=()
+    wanted=$(grep -v '^#' packages.txt)
+    for package in $wanted; do
+        # A package counts as there when it is installed, or when what it is wanted for works already.
+        case $package in nodejs) command -v node >/dev/null && continue ;; npm) command -v npm >/dev/null && continue ;; esac
+        dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return
+    echo "installing: ${missing[*]}"
+    local sudo=""
+    [ "$(id -u)" -eq 0 ] || sudo=sudo
+    $sudo apt-get update -qq
+    DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+build_program() {
+    cmake --preset release >/dev/null
+    cmake --build --preset release
+}
+
+case "${1:-}" in
+build)
+    install_packages
+    build_program
+    ;;
+run)
+    install_packages
+    build_program
+    "$build/proveta" run examples/ucs.json --out results/ucs
+    ;;
+test)
+    install_packages
+    build_program
+    # The schema test wants a JSON schema validator.
+    [ -d "$node_tools/node_modules/ajv" ] || npm install --silent --no-audit --no-fund --prefix "$node_tools" ajv@8 >/dev/null
+    PROVETA_NODE_MODULES="$PWD/$node_tools/node_modules" ctest --preset release -L 'unit|verification|system' -j 2
+    ;;
+*)
+    sed -n '2,5s/^# \{0,1\}//p' "$0"
+    exit 2
+    ;;
+esac

@@ -1,0 +1,44 @@
+// Small specimens for tests.
+#pragma once
+
+#include <limits>
+
+#include "core/model.hpp"
+#include "lab/bench.hpp"
+
+namespace proveta::testing {
+
+/// A material that never breaks or yields.
+inline Material unbreakable(double young = 28.0e9) {
+    Material m;
+    m.young_modulus = young;
+    m.bond.sigma_f = 1e30;
+    m.bond.tau_f = 1e30;
+    m.bond.lcs[0] = 1e30;
+    m.bond.lcs[1] = 2e30;
+    m.bond.lcs[2] = 3e30;
+    return m;
+}
+
+/// Two equal spheres of radius r that touch, along x, bonded with area pi r^2.
+inline Spheres two_spheres(double r, double density = 2500.0) {
+    Spheres s;
+    s.add({0, 0, 0}, r, density);
+    s.add({2 * r, 0, 0}, r, density);
+    return s;
+}
+
+inline Bonds one_bond(const Spheres& s, const Material& m) {
+    std::vector<double> weight;
+    return make_bonds(s, {m}, {{0, 1}}, {0, 0}, weight);
+}
+
+/// A deck of a compression test on a small specimen.
+inline Deck small_deck(int spheres, const std::string& more = "{}") {
+    input::Json json = input::Json::parse(R"({"test": "ucs", "specimen": {"diameter": "50 mm", "height": "100 mm"}})");
+    json["specimen"]["spheres"] = spheres;
+    json.merge_patch(input::Json::parse(more));
+    return read_deck(json, "test.json");
+}
+
+} // namespace proveta::testing

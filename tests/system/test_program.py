@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+"""The program from outside: commands, exit codes, messages, result folders.
+
+Usage: test_program.py PROVETA
+"""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = ""
+SMALL = {
+    "test": "ucs",
+    "specimen": {"diameter": "50 mm", "height": "100 mm", "spheres": 800},
+    "loading": {"rate": "0.2 m/s"},
+    "output": {"samples": 100, "fields": 2},
+}
+FILES = ["manifest.json", "curve.csv", "events.csv", "energy.csv", "summary.json", "series.pvd", "checkpoint.h5", "report.html"]
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="proveta_system_"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder, timeout=300, **options)
+
+    def deck(self, content=None, name="deck.json", **changes):
+        text = content if isinstance(content, str) else json.dumps({**SMALL, **changes} if content is None else content)
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def rows(self, path):
+        with open(path) as f:
+            return list(csv.DictReader(line for line in f if not line.startswith("#")))
+
+
+class Running(Case):
+    def test_a_run_leaves_every_file_whole(self):
+        out = self.folder / "result"
+        done = self.run_program("run", self.deck(), "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Compressive strength", done.stdout)
+        for name in FILES:
+            self.assertTrue((out / name).is_file(), name)
+        self.assertFalse(list(out.rglob("*.partial")))
+        summary = json.loads((out / "summary.json").read_text())
+        self.assertEqual(summary["status"], "complete")
+        self.assertGreater(summary["results"]["strength"]["value"], 1e6)
+        self.assertTrue(summary["verdicts"]["Energy balance"]["good"])
+        curve = self.rows(out / "curve.csv")
+        stress = [float(r["axial_stress_Pa"]) for r in curve]
+        self.assertAlmostEqual(max(stress), summary["results"]["strength"]["value"], delta=1e-6 * max(stress))
+        events = self.rows(out / "events.csv")
+        self.assertEqual(len(events), int(float(curve[-1]["broken_bonds"])) + sum(float(e["axial_strain"]) > float(curve[-1]["axial_strain"]) for e in events))
+        page = (out / "report.html").read_text()
+        self.assertNotIn("http://", page.replace("http://www.w3.org/2000/svg", ""))
+        self.assertNotIn("https://", page)
+        self.assertTrue(list((out / "fields").glob("spheres_*.vtp")))
+
+    def test_threads_and_the_manifest_repeat_a_run_to_the_byte(self):
+        deck = self.deck()
+        self.assertEqual(self.run_program("run", deck, "--out", "one", "--threads", 1, "--quiet").returncode, 0)
+        self.assertEqual(self.run_program("run", deck, "--out", "two", "--threads", 2, "--quiet").returncode, 0)
+        again = self.run_program("run", "one/manifest.json", "--out", "three", "--quiet")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        for name in ["curve.csv", "events.csv", "energy.csv"]:
+            first = (self.folder / "one" / name).read_bytes()
+            self.assertEqual(first, (self.folder / "two" / name).read_bytes(), name)
+            self.assertEqual(first, (self.folder / "three" / name).read_bytes(), name)
+        hashes = {json.loads((self.folder / d / "summary.json").read_text())["final_state_hash"] for d in ["one", "two", "three"]}
+        self.assertEqual(len(hashes), 1)
+
+    def test_results_go_to_stdout_and_the_log_to_stderr(self):
+        done = self.run_program("run", self.deck(), "--out", "r")
+        self.assertIn("results in r", done.stdout)
+        self.assertIn("info:", done.stderr)
+        self.assertNotIn("info:", done.stdout)
+        quiet = self.run_program("run", self.deck(), "--out", "r", "--quiet")
+        self.assertEqual(quiet.stderr, "")
+
+    def test_an_interrupt_ends_cleanly_with_a_partial_result(self):
+        deck = self.deck(loading={"rate": "0.001 m/s"})
+        process = subprocess.Popen([PROGRAM, "run", str(deck), "--out", "r"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for _ in range(300):
+            time.sleep(0.1)
+            if (self.folder / "r" / "fields").exists():
+                break
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        summary = json.loads((self.folder / "r" / "summary.json").read_text())
+        self.assertEqual(summary["status"], "interrupted")
+        self.assertIn("partial", " ".join(summary["warnings"]))
+        self.assertIn("interrupted", (self.folder / "r" / "report.html").read_text())
+        self.assertEqual(json.loads((self.folder / "r" / "manifest.json").read_text())["status"], "interrupted")
+        self.assertIn("interrupted", out)
+
+
+class BadInput(Case):
+    def refused(self, *arguments, says):
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertFalse((self.folder / "out").exists(), "a refused run left a folder")
+
+    def test_decks_that_are_not_decks(self):
+        for text, says in [("", "an empty file"), ('{"test": "ucs"', "not JSON"), ("[]", "a JSON array"), ('{"test": NaN}', "JSON has no NaN"),
+                           ("{}", "no test"), ('{"test": 3}', "/test"), ("\x00\x01", "not JSON"), ("[" * 100000, "nested levels")]:
+            with self.subTest(text[:20]):
+                self.refused("run", self.deck(text), "--out", "out", says=says)
+        self.refused("run", "nowhere.json", "--out", "out", says="no such file")
+        self.refused("run", self.folder, "--out", "out", says="a folder")
+
+    def test_values_that_cannot_be(self):
+        for changes, says in [
+            ({"specimen": {"smallest_radius": -1}}, "/specimen/smallest_radius"),
+            ({"specimen": {"diameter": "-5 mm"}}, "/specimen/diameter"),
+            ({"specimen": {"spheres": 1}}, "/specimen/spheres"),
+            ({"specimen": {"sphers": 100}}, 'did you mean "spheres"?'),
+            ({"loading": {"confining_pressure": "30 MPa"}}, ["/loading/confining_pressure", "triaxial"]),
+            ({"loading": {"rate": "NaN"}}, "/loading/rate"),
+            ({"loading": {"rate": "fast"}}, "/loading/rate"),
+            ({"material": {"card": "granite"}}, "/material/card"),
+            ({"material": {"card": "no/such/card.json"}}, "neither a card of the program nor a file"),
+            ({"material": {"yrc": [0.5, 2, 3]}}, "/material/yrc/0"),
+            ({"specimen": {"file": "none.h5"}}, "/specimen/file"),
+            ({"numerics": {"time_step": "1 s"}}, "stable step"),
+            ({"bonding": {"coordination": 29}}, "/bonding/coordination"),
+        ]:
+            with self.subTest(str(changes)):
+                self.refused("run", self.deck(**changes), "--out", "out", says=says)
+
+    def test_folders_that_cannot_be_used(self):
+        (self.folder / "file").write_text("x")
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine" / "thesis.txt").write_text("x")
+        self.refused("run", self.deck(), "--out", "file", says="which is a file")
+        self.refused("run", self.deck(), "--out", "file/sub", says="cannot be made")
+        self.refused("run", self.deck(), "--out", "mine", says="holds other files")
+        self.assertTrue((self.folder / "mine" / "thesis.txt").exists())
+        self.refused("run", self.deck(), "--out", "/proc/nowhere", says="cannot be made")
+
+    def test_an_earlier_result_survives_a_refused_deck_and_is_replaced_by_a_good_one(self):
+        self.assertEqual(self.run_program("run", self.deck(), "--out", "r", "--quiet").returncode, 0)
+        before = (self.folder / "r" / "curve.csv").read_bytes()
+        self.assertEqual(self.run_program("run", self.deck(numerics={"time_step": "1 s"}, name="bad.json"), "--out", "r").returncode, 2)
+        self.assertEqual(before, (self.folder / "r" / "curve.csv").read_bytes())
+        self.assertEqual(self.run_program("run", self.deck(), "--out", "r", "--quiet", "--seed", 5).returncode, 0)
+        self.assertNotEqual(before, (self.folder / "r" / "curve.csv").read_bytes())
+
+    def test_command_lines(self):
+        self.refused("run", says="deck is required")
+        self.refused("rum", says=['"rum" is no command', 'did you mean "run"?'])
+        self.refused("run", self.deck(), "--threads", "0", says="--threads")
+        self.refused("run", self.deck(), "--set", "rate", says="key=value")
+        self.refused("describe", "loading.raet", says='did you mean "loading.rate"?')
+
+    def test_check_reports_all_problems_at_once(self):
+        deck = self.deck(specimen={"diameter": 0, "sphere": 3}, loading={"rat": 1}, colour="red")
+        done = self.run_program("check", deck)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("error:"), 4, done.stderr)
+        self.assertEqual(self.run_program("check", self.deck()).returncode, 0)
+
+
+class Materials(Case):
+    def test_a_card_file_based_on_another_and_overridden_by_the_deck(self):
+        (self.folder / "mine.json").write_text(json.dumps({"card": "concrete_dempack", "sigma_f": "3 MPa", "mu_s": 0.5}))
+        done = self.run_program("run", self.deck(material={"card": "mine.json", "mu_s": 0.7}), "--out", "r", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        material = json.loads((self.folder / "r" / "manifest.json").read_text())["deck"]["material"]
+        self.assertEqual((material["name"], material["sigma_f"], material["mu_s"], material["area_rule"]), ("mine", 3e6, 0.7, "minimum_radius"))
+
+    def test_the_program_needs_no_file_but_the_deck(self):
+        done = self.run_program("describe", "concrete_sfer", env={"PATH": "/nowhere"})
+        self.assertIn("tau_f [Pa]", done.stdout)
+
+
+class Specimens(Case):
+    def test_make_info_export_import_and_use(self):
+        make = self.run_program("specimen", "make", "a.h5", "--set", "spheres=600", "--set", "diameter=50 mm", "--set", "height=100 mm")
+        self.assertEqual(make.returncode, 0, make.stderr)
+        info = self.run_program("specimen", "info", "a.h5")
+        self.assertEqual(info.stdout, make.stdout)
+        self.assertIn("spheres              600", info.stdout)
+        self.assertEqual(self.run_program("specimen", "export", "a.h5", "a.csv").returncode, 0)
+        back = self.run_program("specimen", "import", "a.csv", "b.h5", "--diameter", 0.05, "--height", 0.1)
+        self.assertEqual(back.returncode, 0, back.stderr)
+        self.assertEqual(self.run_program("specimen", "export", "b.h5", "b.csv").returncode, 0)
+        for a, b in zip(self.rows(self.folder / "a.csv"), self.rows(self.folder / "b.csv")):
+            for key in a:
+                self.assertAlmostEqual(float(a[key]), float(b[key]), delta=1e-4)
+        run = self.run_program("run", self.deck(specimen={"file": "a.h5"}), "--out", "r", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_files_that_are_not_specimens(self):
+        (self.folder / "x.h5").write_text("no")
+        (self.folder / "x.csv").write_text("1,2,3\n")
+        self.assertEqual(self.run_program("specimen", "info", "x.h5").returncode, 2)
+        self.assertEqual(self.run_program("specimen", "info", "none.h5").returncode, 2)
+        bad = self.run_program("specimen", "import", "x.csv", "y.h5")
+        self.assertEqual(bad.returncode, 2)
+        self.assertIn("x.csv:1", bad.stderr)
+        self.assertFalse((self.folder / "y.h5").exists())
+
+
+class SelfDescription(Case):
+    def test_version_describe_and_reference(self):
+        self.assertIn("proveta", self.run_program("--version").stdout)
+        self.assertIn("platen_friction", self.run_program("describe", "ucs").stdout)
+        self.assertIn("above 0", self.run_program("describe", "rate").stdout)
+        reference = pathlib.Path(__file__).parents[2] / "docs" / "reference.md"
+        self.assertEqual(self.run_program("describe", "--markdown").stdout, reference.read_text(), "docs/reference.md is out of date: proveta describe --markdown")
+
+    def test_the_schema_is_a_schema_and_agrees_with_the_program(self):
+        node_modules = os.environ.get("PROVETA_NODE_MODULES", "")
+        if not node_modules:
+            self.skipTest("PROVETA_NODE_MODULES is not set (bootstrap.sh installs ajv and sets it)")
+        (self.folder / "schema.json").write_text(self.run_program("schema").stdout)
+        (self.folder / "card.json").write_text(self.run_program("schema", "card").stdout)
+        examples = pathlib.Path(__file__).parents[2]
+        decks = [(d, True) for d in sorted((examples / "examples").glob("*.json"))]
+        decks += [(self.deck(**c, name=f"d{k}.json"), good) for k, (c, good) in enumerate([
+            ({}, True), ({"loading": {"rate": "0.1 m/s", "platen_friction": "glued"}}, True), ({"loading": {"rate": 0}}, False),
+            ({"loading": {"rat": 1}}, False), ({"specimen": {"spheres": 1}}, False), ({"material": {"lcs": [1, 2]}}, False),
+            ({"test": "none"}, False), ({"specimen": {"diameter": "5 parsec"}}, False), ({"material": {"tau_f": "16 MPa"}}, True)])]
+        for deck, good in decks:
+            self.assertEqual(self.run_program("check", deck).returncode == 0, good, deck.read_text())
+        jobs = [["schema.json", str(d), good] for d, good in decks]
+        jobs += [["card.json", str(c), True] for c in sorted((examples / "materials" / "cards").glob("*.json"))]
+        script = f"""
+            const Ajv = require({json.dumps(node_modules + '/ajv/dist/2020')}).default, fs = require('fs');
+            const read = f => JSON.parse(fs.readFileSync(f));
+            const ajv = new Ajv({{strict: true, allErrors: true, strictTypes: false}}), compiled = {{}};
+            for (const [schema, file, good] of {json.dumps(jobs)}) {{
+                compiled[schema] ??= ajv.compile(read(schema));
+                if (compiled[schema](read(file)) !== good) {{ console.log(file, good, JSON.stringify(compiled[schema].errors)); process.exitCode = 1; }}
+            }}"""
+        done = subprocess.run(["node", "-e", script], capture_output=True, text=True, cwd=self.folder, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()

@@ -1,0 +1,84 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "lab/deck.hpp"
+
+using namespace proveta;
+using input::Json;
+
+namespace {
+
+// Problems of a deck given as text.
+input::Problems problems_of(const std::string& text) {
+    try {
+        read_deck(Json::parse(text), "deck.json");
+    } catch (const input::InputError& e) {
+        return e.problems;
+    }
+    return {};
+}
+
+bool has(const input::Problems& problems, const std::string& path) {
+    return std::any_of(problems.begin(), problems.end(), [&](const auto& p) { return p.path == path; });
+}
+
+} // namespace
+
+TEST_CASE("the smallest deck is complete and gets every default") {
+    const Deck deck = read_deck(Json::parse(R"({"test": "ucs"})"), "deck.json");
+    CHECK(deck.specimen.spheres == 13500);
+    CHECK(deck.specimen.diameter == 0.15);
+    CHECK(deck.material.values.name == "concrete_sfer");
+    CHECK(deck.bonding.interaction_range.word == "auto");
+}
+
+TEST_CASE("all problems of a deck are reported at once, each with its path") {
+    const auto problems = problems_of(R"({"test": "ucs", "specimen": {"diameter": "-3 mm", "sphere": 100, "seed": 1.5},
+        "material": {"card": "concrete_sferr", "tau_f": "16 parsec", "lcs": [3, 2, 1]},
+        "loading": {"rate": 0, "confining_pressure": "30 MPa", "platen_friction": "sticky"}, "output": [], "color": "red"})");
+    for (const char* path :
+         {"/specimen/diameter", "/specimen/sphere", "/specimen/seed", "/material/card", "/material/tau_f", "/material/lcs", "/loading/rate",
+          "/loading/confining_pressure", "/loading/platen_friction", "/output", "/color"}) {
+        INFO(path);
+        CHECK(has(problems, path));
+    }
+    CHECK(problems.size() == 12); // two of them on the LCS
+    const auto key = std::find_if(problems.begin(), problems.end(), [](const auto& p) { return p.path == "/specimen/sphere"; });
+    CHECK(key->suggestion == "did you mean \"spheres\"?");
+    const auto card = std::find_if(problems.begin(), problems.end(), [](const auto& p) { return p.path == "/material/card"; });
+    CHECK(card->suggestion == "did you mean \"concrete_sfer\"?");
+}
+
+TEST_CASE("impossible recipes are refused before any sphere is made") {
+    CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"spheres": 1}})"), "/specimen/spheres"));
+    CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"spheres": 1000000000}})"), "/specimen/spheres"));
+    CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"spheres": 2, "diameter": "1 mm"}})"), "/specimen/spheres"));
+    CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"radius_deviation": 0.5, "smallest_radius": 0.9, "largest_radius": 1.1}})"),
+              "/specimen/radius_deviation"));
+    CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"grading": [{"diameter": "2 mm", "passing": 0.5}]}})"), "/specimen/grading/0"));
+    CHECK(has(problems_of(R"({"specimen": {}})"), "/test"));
+    CHECK(has(problems_of(R"({"test": "usc"})"), "/test"));
+}
+
+TEST_CASE("the resolved deck reads back as itself") {
+    Json json = Json::parse(R"({"test": "ucs", "material": {"card": "concrete_dempack", "sigma_f": "3 MPa"}, "specimen": {"spheres": 50},
+        "regions": [{"from": [0, 0, 0], "to": [1, 1, "10 mm"], "group": 2, "material": {"card": "concrete_dempack", "tau_f": 1e6}}],
+        "loading": {"platen_friction": "glued", "ramp": "1 ms"}})");
+    const Json once = resolved(read_deck(json, "deck.json"));
+    const Json twice = resolved(read_deck(once, "deck.json"));
+    CHECK(once == twice);
+    CHECK(once["material"]["sigma_f"] == 3e6);
+    CHECK(once["regions"][0]["material"]["tau_f"] == 1e6);
+    CHECK(once["loading"]["platen_friction"] == "glued");
+    CHECK(once["loading"]["ramp"] == 1e-3);
+}
+
+TEST_CASE("settings from the command line change one value") {
+    Json json = Json::parse(R"({"test": "ucs"})");
+    apply_settings(json, {"loading.rate=0.1", "material.card=concrete_dempack", "output.fields=0"});
+    CHECK(json["loading"]["rate"] == 0.1);
+    CHECK(json["material"]["card"] == "concrete_dempack");
+    CHECK_THROWS_AS(apply_settings(json, {"rate"}), input::InputError);
+    CHECK_THROWS_AS(apply_settings(json, {"test.x=1"}), input::InputError);
+}

@@ -1,0 +1,148 @@
+#include <catch2/catch.hpp>
+#include <omp.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+#include "specimens/grading.hpp"
+#include "specimens/hdf5_file.hpp"
+#include "specimens/import.hpp"
+#include "specimens/statistics.hpp"
+#include "specimens/storage.hpp"
+
+using namespace proveta;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder that goes away with its test.
+struct TemporaryFolder {
+    fs::path path = fs::temp_directory_path() / ("proveta_test_" + std::to_string(::getpid()));
+    TemporaryFolder() { fs::create_directories(path); }
+    ~TemporaryFolder() { fs::remove_all(path); }
+    [[nodiscard]] std::string file(const std::string& name, const std::string& text = "") const {
+        if (!text.empty()) {
+            std::ofstream(path / name) << text;
+        }
+        return (path / name).string();
+    }
+};
+
+SpecimenRecipe small_recipe() {
+    SpecimenRecipe r;
+    r.diameter = 0.05;
+    r.height = 0.1;
+    r.spheres = 600;
+    return r;
+}
+
+} // namespace
+
+TEST_CASE("normal radii have the asked moments and bounds") {
+    const auto r = normal_radii(20000, 0.258, 0.4, 1.6, 7);
+    const double mean = std::accumulate(r.begin(), r.end(), 0.0) / 20000.0;
+    double variance = 0.0;
+    for (const double x : r) {
+        variance += (x - mean) * (x - mean) / 20000.0;
+        CHECK((x >= 0.4 && x <= 1.6));
+    }
+    CHECK(mean == Approx(1.0).epsilon(1e-4));
+    CHECK(std::sqrt(variance) == Approx(0.258).epsilon(1e-3));
+    CHECK_THROWS_AS(normal_radii(10, 0.5, 0.9, 1.1, 0), std::invalid_argument);
+    CHECK(normal_radii(5, 0.0, 0.4, 1.6, 0) == std::vector<double>(5, 1.0));
+}
+
+TEST_CASE("graded radii follow the sieve curve by mass") {
+    const std::vector<SievePoint> curve{{0.004, 0.0}, {0.008, 0.4}, {0.016, 1.0}};
+    const auto r = graded_radii(50000, curve, 1);
+    double total = 0.0;
+    double fine = 0.0;
+    for (const double x : r) {
+        total += x * x * x;
+        fine += x < 0.004 ? x * x * x : 0.0;
+    }
+    CHECK(fine / total == Approx(0.4).epsilon(0.01));
+}
+
+TEST_CASE("a packing is inside, dense as asked, and the same for every number of threads") {
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const Specimen one = make_specimen(small_recipe());
+    omp_set_num_threads(3);
+    const Specimen three = make_specimen(small_recipe());
+    omp_set_num_threads(threads);
+    CHECK(one.spheres.centre.x == three.spheres.centre.x);
+    CHECK(one.spheres.centre.z == three.spheres.centre.z);
+    CHECK(one.spheres.radius == three.spheres.radius);
+    const auto st = statistics(one);
+    CHECK(st.outside == 0);
+    CHECK(st.porosity == Approx(0.257).epsilon(1e-9));
+    CHECK(st.largest_overlap < 0.4);
+    auto other = small_recipe();
+    other.seed = 2;
+    CHECK(make_specimen(other).spheres.centre.x != one.spheres.centre.x);
+}
+
+TEST_CASE("specimens survive storage, and what is not one is refused") {
+    const TemporaryFolder folder;
+    const Specimen s = make_specimen(small_recipe());
+    save_specimen(s, folder.file("s.h5"));
+    const Specimen back = load_specimen(folder.file("s.h5"));
+    CHECK(back.spheres.centre.y == s.spheres.centre.y);
+    CHECK(back.spheres.radius == s.spheres.radius);
+    CHECK(back.group == s.group);
+    CHECK(back.shape.height == s.shape.height);
+    CHECK(back.recipe["spheres"] == 600);
+    CHECK_THROWS(load_specimen(folder.file("none.h5")));
+    CHECK_THROWS(load_specimen(folder.file("text.h5", "not HDF5")));
+    {
+        Hdf5File h(folder.file("other.h5"), Hdf5File::Mode::create);
+        h.put("x", 1.0);
+    }
+    CHECK_THROWS(load_specimen(folder.file("other.h5")));
+    fs::resize_file(folder.file("s.h5"), fs::file_size(folder.file("s.h5")) / 2);
+    CHECK_THROWS(load_specimen(folder.file("s.h5")));
+}
+
+TEST_CASE("sphere meshes of other programs are read, with any axis") {
+    const TemporaryFolder folder;
+    const auto csv = folder.file("a.csv", "x,y,z,r\n0,0,0,0.5\n# a comment\n0;2;0;0.5\n0 1 0 0.4\n");
+    const Specimen a = import_specimen(csv, {.axis = 'y'});
+    CHECK(a.size() == 3);
+    CHECK(a.shape.height == Approx(3.0));
+    CHECK(a.spheres.centre.z[0] == Approx(0.5));
+    CHECK(a.spheres.centre.z[1] == Approx(2.5));
+
+    const auto mdpa = folder.file("b.mdpa", "Begin Nodes\n 7 0 0 0\n 3 0 0 2\nEnd Nodes\nBegin Elements X// c\n1 0 7\nEnd Elements\n"
+                                            "Begin NodalData RADIUS // c\n 7 0 0.5\n 3 0 0.25\nEnd NodalData\n"
+                                            "Begin NodalData COHESIVE_GROUP\n 7 0 1\n 3 0 2\nEnd NodalData\n");
+    const Specimen b = import_specimen(mdpa, {});
+    REQUIRE(b.size() == 2);
+    CHECK(b.group == std::vector<int>{2, 1});
+    CHECK(b.spheres.radius[0] == 0.25);
+
+    const auto msh = folder.file("c.msh", "MESH dimension 3 ElemType Sphere Nnode 1\nCoordinates\n1 0 0 0\n2 0 0 1\nEnd Coordinates\n"
+                                          "Elements\n1 1 0.5\n2 2 0.5\nEnd Elements\n");
+    CHECK(import_specimen(msh, {}).shape.height == Approx(2.0));
+}
+
+TEST_CASE("broken sphere meshes are refused with file and line") {
+    const TemporaryFolder folder;
+    const auto message = [&](const char* name, const char* text) {
+        try {
+            import_specimen(folder.file(name, text), {});
+        } catch (const std::runtime_error& e) {
+            return std::string(e.what());
+        }
+        return std::string("no error");
+    };
+    CHECK(message("a.csv", "0,0,0,0.5\n0,0,2,-1\n").find("a.csv:2: radius -1 is not positive") != std::string::npos);
+    CHECK(message("b.csv", "0,0,0,0.5\n0,0,nan,1\n").find("b.csv:2") != std::string::npos);
+    CHECK(message("c.csv", "0,0,0,0.5\n0,0,1\n").find("3 numbers") != std::string::npos);
+    CHECK(message("d.csv", "0,0,0,0.5\n").find("at least 2") != std::string::npos);
+    CHECK(message("e.stl", "solid\n").find("unknown ending") != std::string::npos);
+    CHECK(message("f.mdpa", "Begin Nodes\n1 0 0 0\n2 0 0 1\nEnd Nodes\n").find("no radius") != std::string::npos);
+}
