@@ -128,7 +128,7 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
         ledger_.kinetic = sums.kinetic;
         double forces = 0.0;
         for (std::size_t b = 0; b < bonds.size(); ++b) {
-            forces += 2.0 * std::hypot(bonds.normal[b], bonds.shear[b]); // on each of two spheres
+            forces += std::hypot(bonds.normal[b], bonds.shear[b]);
         }
         measures_.unbalanced_ratio = forces > 0.0 ? sums.unbalanced / forces : 0.0;
         check();

@@ -28,7 +28,7 @@ struct Numerics {
 
 /// What `Model::step(true)` measured besides the ledger; values at the time of the last forces.
 struct StepMeasures {
-    double unbalanced_ratio = 0.0; ///< mean over spheres of |sum of forces| over the mean of the sum of |bond force|
+    double unbalanced_ratio = 0.0; ///< sum over spheres of |sum of forces| over the sum of |bond force|
 };
 
 /// The step that a user asked for is above the stable one.

@@ -211,7 +211,10 @@ report::Picture slice(const Bench& bench, const std::string& title) {
     for (auto& line : p.lines) {
         line.weight /= std::max(widest, 1e-300);
     }
-    p.caption = fmt::format("Slice through the axis, two mean radii thick. Shade: sideways displacement, up to {:.3g} mm.", 1e3 * farthest);
+    p.caption = "Slice through the axis, two mean radii thick.";
+    if (farthest > 0.0) {
+        p.caption += fmt::format(" Shade: sideways displacement, up to {:.3g} mm.", 1e3 * farthest);
+    }
     if (!p.lines.empty()) {
         p.caption += fmt::format(
             " Strokes: {} failed bonds, red in tension, amber in shear, the bolder the wider they have opened (up to {:.2g} mm).",

@@ -92,7 +92,7 @@ report::Table Instruments::empty_curve() const {
                  {"broken_bonds", "", "failed bonds so far"},
                  {"broken_in_tension", "", "of these in tension"},
                  {"broken_in_shear", "", "of these in shear"},
-                 {"unbalanced_ratio", "", "mean unbalanced force on a sphere over the mean sum of forces on it"}};
+                 {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"}};
     return t;
 }
 

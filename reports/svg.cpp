@@ -79,19 +79,32 @@ std::string to_svg(const Plot& plot) {
                                   width, height, escape(plot.title));
     for (double v = ax.low; v <= ax.high + 0.5 * ax.tick; v += ax.tick) {
         out += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/>"
-                           "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" fill=\"#333\">{4:.4g}</text>\n",
+                           "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" fill=\"#333\">{4:.6g}</text>\n",
                            px(v), py(ay.low), py(ay.high), py(ay.low) + 16, std::fabs(v) < 1e-9 * ax.tick ? 0.0 : v);
     }
     for (double v = ay.low; v <= ay.high + 0.5 * ay.tick; v += ay.tick) {
         out += fmt::format("<line x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
-                           "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5:.4g}</text>\n",
+                           "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5:.6g}</text>\n",
                            py(v), px(ax.low), px(ax.high), px(ax.low) - 6, py(v) + 4, std::fabs(v) < 1e-9 * ay.tick ? 0.0 : v);
     }
     out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (left + width - right),
                        height - 10, escape(plot.x_title));
     out += fmt::format("<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n",
                        0.5 * (top + height - bottom), escape(plot.y_title));
-    double key = top + 14;
+    // The key stands in the corner that fewer points run through.
+    const double key_height = 17.0 * static_cast<double>(plot.curves.size());
+    std::size_t in_corner[2] = {0, 0};
+    for (const auto& c : plot.curves) {
+        for (std::size_t k = 0; k < c.x.size(); ++k) {
+            const double x = px(c.x[k]);
+            const double y = py(c.y[k]);
+            in_corner[0] += x < left + 170 && y < top + key_height + 10 ? 1 : 0;
+            in_corner[1] += x > width - right - 190 && y > height - bottom - key_height - 10 ? 1 : 0;
+        }
+    }
+    const bool upper_left = in_corner[0] <= in_corner[1];
+    const double key_left = upper_left ? left + 12 : width - right - 180;
+    double key = upper_left ? top + 14 : height - bottom - key_height + 5;
     for (const auto& c : plot.curves) {
         std::string points;
         for (std::size_t k = 0; k < c.x.size(); ++k) {
@@ -102,7 +115,7 @@ std::string to_svg(const Plot& plot) {
         if (plot.curves.size() > 1) {
             out += fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"/>"
                                "<text x=\"{4}\" y=\"{5}\" fill=\"#111\">{6}</text>\n",
-                               left + 12, key, left + 34, c.colour, left + 40, key + 4, escape(c.name));
+                               key_left, key, key_left + 22, c.colour, key_left + 28, key + 4, escape(c.name));
             key += 17;
         }
     }

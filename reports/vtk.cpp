@@ -5,6 +5,7 @@
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
+#include <vtkObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -33,6 +34,7 @@ void add_arrays(vtkFieldData* target, const std::vector<FieldArray>& arrays) {
 } // namespace
 
 void write_vtp(const std::string& file, const Geometry& g) {
+    vtkObject::GlobalWarningDisplayOff(); // failures are reported by the exception below
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     points->SetNumberOfPoints(static_cast<vtkIdType>(g.points.size()));

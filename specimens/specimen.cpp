@@ -15,7 +15,6 @@ namespace proveta {
 
 using input::above;
 using input::between;
-using input::between_open;
 using input::Unit;
 
 void declare(input::Visitor& v, GradingPoint& p) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +13,8 @@ namespace proveta {
 struct Pair {
     std::int32_t i;
     std::int32_t j;
-    friend auto operator<=>(const Pair&, const Pair&) = default;
+    friend bool operator==(const Pair& a, const Pair& b) { return a.i == b.i && a.j == b.j; }
+    friend bool operator<(const Pair& a, const Pair& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; }
 };
 
 /// Items sorted into cubic cells over the box of their centres. The number of cells is bounded by twice the number of items (plus a
