@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 
@@ -60,7 +61,7 @@ std::string Progress::duration(double seconds) {
     if (!(seconds < 1e7)) {
         return "?";
     }
-    const auto s = static_cast<long>(seconds + 0.5);
+    const auto s = std::lround(seconds);
     if (s < 60) {
         return fmt::format("{} s", s);
     }

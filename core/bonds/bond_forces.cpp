@@ -43,7 +43,7 @@ BondDissipation bond_forces(const Spheres& spheres, Bonds& bonds, double dt, boo
     const auto run = variant().run;
     const SphereView view = spheres.view();
     const BondView bond_view = bonds.view();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (blocks > 1)
     for (std::size_t k = 0; k < blocks; ++k) {
         const BondBlock& block = bonds.blocks[k];
         run(view, bond_view, bonds.laws[block.law], block.begin, block.end, dt, measure, results[k]);

@@ -63,7 +63,7 @@ std::vector<Pair> bonded_pairs(const Spheres& spheres, const BondingRule& rule, 
     }
     // The wished number of bonds is met exactly (up to one bond) by taking the pairs with the smallest gaps.
     const auto wanted = static_cast<std::size_t>(std::llround(0.5 * rule.coordination * static_cast<double>(spheres.size())));
-    for (double reach = 0.2; reach <= 0.81; reach *= 2.0) {
+    for (const double reach : {0.2, 0.4, 0.8}) {
         auto pairs = same_group(spheres, find_pairs(spheres.position, spheres.radius, 1.0 + reach, 0.0));
         std::vector<double> needed(pairs.size());
         std::transform(pairs.begin(), pairs.end(), needed.begin(), [&](const Pair& p) { return needed_beta(spheres, p); });

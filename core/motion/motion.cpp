@@ -45,7 +45,7 @@ MotionSums move_spheres(Spheres& s, const Bonds& bonds, const Contacts& contacts
     constexpr std::size_t block = 256;
     const std::size_t n = s.size();
     std::vector<MotionSums> parts((n + block - 1) / block);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (parts.size() > 1)
     for (std::size_t part = 0; part < parts.size(); ++part) {
         MotionSums& out = parts[part];
         for (std::size_t k = part * block; k < std::min(n, (part + 1) * block); ++k) {
