@@ -1,10 +1,11 @@
 #include "core/model.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <sstream>
+
+#include "core/hash.hpp"
 
 namespace proveta {
 
@@ -156,29 +157,19 @@ void Model::restored() {
 }
 
 std::uint64_t Model::state_hash() const {
-    std::uint64_t hash = 1469598103934665603ull;
-    auto mix = [&](std::uint64_t word) {
-        for (int byte = 0; byte < 8; ++byte) {
-            hash = (hash ^ ((word >> (8 * byte)) & 0xffu)) * 1099511628211ull;
-        }
-    };
-    auto all = [&](const std::vector<double>& values) {
-        for (const double v : values) {
-            mix(std::bit_cast<std::uint64_t>(v));
-        }
-    };
+    Hash hash;
     for (const auto* f : {&spheres.position, &spheres.velocity, &spheres.spin, &bonds.slip, &contacts.slip}) {
-        all(f->x);
-        all(f->y);
-        all(f->z);
+        hash.mix(f->x);
+        hash.mix(f->y);
+        hash.mix(f->z);
     }
     for (const auto* a : {&bonds.plastic, &bonds.damage_n, &bonds.damage_t, &bonds.damage_work}) {
-        all(*a);
+        hash.mix(*a);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) {
-        mix(static_cast<std::uint64_t>(contacts.i[k]) << 32 | static_cast<std::uint32_t>(contacts.j[k]));
+        hash.mix(static_cast<std::uint64_t>(contacts.i[k]) << 32 | static_cast<std::uint32_t>(contacts.j[k]));
     }
-    return hash;
+    return hash.value();
 }
 
 } // namespace proveta

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 
 #include "core/geometry/hilbert.hpp"
+#include "core/hash.hpp"
 #include "core/input/units.hpp"
+#include "lab/provenance.hpp"
 
 namespace proveta {
 
@@ -39,17 +40,12 @@ Spheres make_spheres(const Specimen& specimen, const Deck& deck, std::vector<Mat
 }
 
 std::uint64_t hash_of(const Specimen& specimen) {
-    std::uint64_t hash = 1469598103934665603ull;
+    Hash hash;
     for (const auto* values :
          {&specimen.spheres.centre.x, &specimen.spheres.centre.y, &specimen.spheres.centre.z, &specimen.spheres.radius}) {
-        for (const double v : *values) {
-            const auto word = std::bit_cast<std::uint64_t>(v);
-            for (int byte = 0; byte < 8; ++byte) {
-                hash = (hash ^ ((word >> (8 * byte)) & 0xffu)) * 1099511628211ull;
-            }
-        }
+        hash.mix(*values);
     }
-    return hash;
+    return hash.value();
 }
 
 Bench set_up(const Deck& deck, Specimen specimen) {
@@ -57,9 +53,15 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     bench.specimen = std::move(specimen);
     bench.statistics = statistics(bench.specimen);
     bench.specimen_hash = hash_of(bench.specimen);
-    auto fail = [&](const std::string& path, const std::string& found, const std::string& expected, const std::string& hint = "") {
+    const auto fail = [&](const std::string& path, const std::string& found, const std::string& expected, const std::string& hint = "") {
         throw input::InputError({{deck.source, path, found, expected, hint}});
     };
+
+    if (!deck.expected_specimen.empty() && hex(bench.specimen_hash) != deck.expected_specimen) {
+        fail("/specimen_hash", deck.expected_specimen + ", while the specimen now has " + hex(bench.specimen_hash),
+             "the specimen that the manifest was written for",
+             "its file has changed, or the program makes packings differently now; run its deck instead");
+    }
 
     std::vector<Material> materials;
     Spheres spheres = make_spheres(bench.specimen, deck, materials);

@@ -64,9 +64,6 @@ Deck read_deck(const Json& given, const std::string& file) {
     Deck deck;
     deck.source = file;
     deck.folder = std::filesystem::absolute(file).parent_path().string();
-    if (json.contains("proveta_manifest")) {
-        json = json.contains("deck") ? json["deck"] : Json::object();
-    }
     if (!json.is_object() || !json.contains("test")) {
         problems.push_back({file, "/test", "no test", fmt::format("one of {}", fmt::join(test_names(), ", ")),
                             "the smallest complete deck is { \"test\": \"ucs\" }"});

@@ -57,13 +57,14 @@ struct Deck {
     NumericsInput numerics;
     OutputInput output;
 
-    std::string source; ///< the deck's file
-    std::string folder; ///< where its relative file names start
+    std::string source;            ///< the deck's file
+    std::string folder;            ///< where its relative file names start
+    std::string expected_specimen; ///< hash of the specimen that a manifest was written for, or empty
 };
 
 void declare(input::Visitor& v, Deck& deck);
 
-/// Reads a deck, or the deck inside a manifest. Throws InputError with every problem. json has been loaded from `file`.
+/// Reads a deck. Throws InputError with every problem. json has been loaded from `file`.
 Deck read_deck(const input::Json& json, const std::string& file);
 
 /// Applies "a.b=v" settings of the command line to a deck's JSON: v is JSON if it parses, else text. Throws InputError.

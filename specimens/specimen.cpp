@@ -24,7 +24,9 @@ void declare(input::Visitor& v, GradingPoint& p) {
 
 void declare(input::Visitor& v, SpecimenRecipe& r) {
     v.text("file", r.file, "a stored specimen (.h5) to take instead of making one; the other keys are then not used");
-    v.choice("shape", r.shape, {{"cylinder", "diameter and height"}, {"prism", "width, depth and height"}}, "solid that the spheres fill");
+    v.choice("shape", r.shape,
+             {{"cylinder", "diameter and height"}, {"disc", "a short cylinder: diameter and height"}, {"prism", "width, depth and height"}},
+             "solid that the spheres fill");
     v.number("diameter", r.diameter, Unit::length, between(1e-4, 100), "diameter of a cylinder");
     v.number("width", r.width, Unit::length, between(1e-4, 100), "side of a prism along x");
     v.number("depth", r.depth, Unit::length, between(1e-4, 100), "side of a prism along y");

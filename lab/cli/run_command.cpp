@@ -35,15 +35,22 @@ Deck prepare(const DeckArguments& a) {
         omp_set_num_threads(a.threads);
     }
     auto json = input::load_json(a.deck);
-    if (json.contains("proveta_manifest") && json.contains("deck")) {
-        json = input::Json(json["deck"]);
-    }
+    std::string expected;
     auto settings = a.settings;
+    if (json.contains("proveta_manifest")) {
+        const bool unchanged = settings.empty() && a.seed.empty();
+        expected = unchanged && json.contains("specimen_hash") && json["specimen_hash"].is_string()
+                       ? json["specimen_hash"].get<std::string>()
+                       : "";
+        json = json.contains("deck") ? input::Json(json["deck"]) : input::Json::object();
+    }
     if (!a.seed.empty()) {
         settings.push_back("specimen.seed=" + a.seed);
     }
     apply_settings(json, settings);
-    return read_deck(json, a.deck);
+    Deck deck = read_deck(json, a.deck);
+    deck.expected_specimen = expected;
+    return deck;
 }
 
 } // namespace

@@ -205,6 +205,13 @@ class Specimens(Case):
                 self.assertAlmostEqual(float(a[key]), float(b[key]), delta=1e-4)
         run = self.run_program("run", self.deck(specimen={"file": "a.h5"}), "--out", "r", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)
+        # A manifest notices that its specimen is another one now.
+        self.run_program("specimen", "make", "a.h5", "--set", "spheres=600", "--set", "diameter=50 mm", "--set", "height=100 mm", "--set", "seed=2")
+        changed = self.run_program("run", "r/manifest.json", "--out", "r2", "--quiet")
+        self.assertEqual(changed.returncode, 2)
+        self.assertIn("/specimen_hash", changed.stderr)
+        disc = self.run_program("specimen", "make", "d.h5", "--set", "shape=disc", "--set", "height=90 mm", "--set", "spheres=2000")
+        self.assertIn("cylinder 150 x 90 mm", disc.stdout)
 
     def test_files_that_are_not_specimens(self):
         (self.folder / "x.h5").write_text("no")

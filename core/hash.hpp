@@ -1,0 +1,31 @@
+// A hash of numbers by their bits, for telling whether two states are the same.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace proveta {
+
+/// FNV-1a, 64 bits, byte by byte from the lowest.
+class Hash {
+  public:
+    void mix(std::uint64_t word) {
+        for (int byte = 0; byte < 8; ++byte) {
+            value_ = (value_ ^ ((word >> (8 * byte)) & 0xffu)) * 1099511628211ull;
+        }
+    }
+
+    void mix(const std::vector<double>& values) {
+        for (const double v : values) {
+            mix(std::bit_cast<std::uint64_t>(v));
+        }
+    }
+
+    [[nodiscard]] std::uint64_t value() const { return value_; }
+
+  private:
+    std::uint64_t value_ = 14695981039346656037ull;
+};
+
+} // namespace proveta
