@@ -41,6 +41,7 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
             throw UnstableStep(dt_, stable_);
         }
     }
+    first_dt_ = dt_;
 }
 
 void Model::step(const std::vector<double>& speeds, bool measure) {

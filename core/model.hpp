@@ -54,6 +54,7 @@ class Model {
     void step(const std::vector<double>& speeds, bool measure);
 
     [[nodiscard]] double dt() const { return dt_; }              ///< s
+    [[nodiscard]] double first_dt() const { return first_dt_; }  ///< step at the start; `dt` is below it once new contacts ask for that, s
     [[nodiscard]] double stable_step() const { return stable_; } ///< bound at the last search, s
     [[nodiscard]] double time() const { return time_; }          ///< s
     [[nodiscard]] std::int64_t steps() const { return steps_; }
@@ -93,6 +94,7 @@ class Model {
     VectorField searched_at_; // positions then
     std::vector<double> platens_at_;
     double dt_ = 0.0;
+    double first_dt_ = 0.0;
     double stable_ = 0.0;
     double time_ = 0.0;
     std::int64_t steps_ = 0;
@@ -147,6 +149,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     }
     visit("travel", travel_);
     visit("dt", dt_);
+    visit("first_dt", first_dt_);
     visit("stable", stable_);
     visit("time", time_);
     visit("steps", steps_);

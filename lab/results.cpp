@@ -166,6 +166,11 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
                                          "(card's area rule: {}).",
                                          bench.partition.section, deck.material.values.area_rule));
     }
+    if (bench.model->dt() < bench.model->first_dt()) {
+        r.warnings.push_back(
+            fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when new contacts had made the specimen stiffer.",
+                        bench.model->first_dt(), bench.model->dt()));
+    }
     if (bench.statistics.outside > 0) {
         r.warnings.push_back(fmt::format("{} spheres reach beyond the specimen's nominal surface.", bench.statistics.outside));
     }
