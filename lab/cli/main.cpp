@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
     proveta::add_describe(app, chosen);
     proveta::add_schema(app, chosen);
     proveta::add_specimen(app, chosen);
+    proveta::add_verify(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

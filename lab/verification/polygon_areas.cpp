@@ -1,0 +1,31 @@
+// Ratios of polygons and polyhedra to their inscribed circles and spheres (thesis 5.3, tables 5.1 and 5.2).
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/bonds/areas.hpp"
+#include "lab/verification/cases.hpp"
+
+namespace proveta::verification {
+
+using std::numbers::pi;
+
+Case polygon_areas() {
+    return {"polygon-areas", "5.3", "Surface of the regular polyhedra over that of their inscribed sphere.", false, [] {
+                // Of a solid with n faces that are regular p-gons, q at a vertex.
+                const auto closed_form = [](double n, double p, double q) {
+                    const double half = std::asin(std::cos(pi / q) / std::sin(pi / p)); // half the dihedral angle
+                    const double side = 2.0 * std::tan(pi / p) / std::tan(half);        // of the solid with inscribed radius 1
+                    return n * p * side * side / (4.0 * std::tan(pi / p)) / (4.0 * pi);
+                };
+                Outcome out;
+                for (const auto& [n, p, q] :
+                     {std::array{4.0, 3.0, 3.0}, {6.0, 4.0, 3.0}, {8.0, 3.0, 4.0}, {12.0, 5.0, 3.0}, {20.0, 3.0, 5.0}}) {
+                    out.checks.push_back({std::to_string(static_cast<int>(n)) + " faces", closed_form(n, p, q), polyhedron_ratio(n), 4e-6,
+                                          Compare::relative, "", ""});
+                }
+                return out;
+            }};
+}
+
+} // namespace proveta::verification
