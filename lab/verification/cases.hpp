@@ -7,5 +7,8 @@ namespace proveta::verification {
 
 // Chapter 5
 Case polygon_areas();
+Case dempack_bond();
+Case weak_equals_none();
+Case released_law();
 
 } // namespace proveta::verification
