@@ -65,20 +65,52 @@ std::vector<Mat3> sphere_stresses(const Spheres& s, const Bonds& bonds, const Co
     return sum;
 }
 
-double mohr_coulomb(const Mat3& stress, double cohesion, double mu, double sigma_f) {
-    const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
-    const double radius = 0.5 * (principal[2] - principal[0]);
-    const double centre = cohesion + 0.5 * mu * (principal[2] + principal[0]);
-    // tau / (c + mu sigma) over the planes of Mohr's circle has its maximum t / sqrt(a^2 - (mu t)^2), a = c + mu s.
-    const double left = centre * centre - mu * mu * radius * radius;
-    const double shear = radius <= 0.0 ? 0.0 : centre > 0.0 && left > 0.0 ? radius / std::sqrt(left) : 1e300;
-    return std::max(shear, std::max(-principal[0], 0.0) / std::max(sigma_f, dempack::smallest));
+std::vector<Mat3> vicinity_stresses(const Bonds& bonds, const std::vector<Mat3>& stress, const std::vector<double>& volume) {
+    std::vector<Mat3> out(stress.size());
+    const auto& in = bonds.incidence;
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < stress.size(); ++k) {
+        Mat3 sum = volume[k] * stress[k];
+        double whole = volume[k];
+        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
+            const auto b = in.entry[e] >> 1;
+            if (bonds.mode[b] == 0) {
+                const auto other = static_cast<std::size_t>((in.entry[e] & 1u) != 0 ? bonds.i[b] : bonds.j[b]);
+                sum += volume[other] * stress[other];
+                whole += volume[other];
+            }
+        }
+        out[k] = sum / whole;
+    }
+    return out;
 }
 
-double rankine(const Mat3& stress, double sigma_f) {
-    const double lowest = Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues()[0];
-    return std::max(-lowest, 0.0) / std::max(sigma_f, dempack::smallest);
+namespace {
+
+// Principal values in ascending order by the closed form: a step asks for one set a bond.
+Vec3 principal_values(const Mat3& stress) {
+    Eigen::SelfAdjointEigenSolver<Mat3> solver;
+    return solver.computeDirect(stress, Eigen::EigenvaluesOnly).eigenvalues();
 }
+
+double tension_use(double lowest, double sigma_f) { return std::max(-lowest, 0.0) / std::max(sigma_f, dempack::smallest); }
+
+// tau / (c + mu sigma) over the planes of Mohr's circle has its maximum t / sqrt(a^2 - (mu t)^2), a = c + mu s.
+double shear_use(const Vec3& principal, double cohesion, double mu) {
+    const double radius = 0.5 * (principal[2] - principal[0]);
+    const double centre = cohesion + 0.5 * mu * (principal[2] + principal[0]);
+    const double left = centre * centre - mu * mu * radius * radius;
+    return radius <= 0.0 ? 0.0 : centre > 0.0 && left > 0.0 ? radius / std::sqrt(left) : 1e300;
+}
+
+} // namespace
+
+double mohr_coulomb(const Mat3& stress, double cohesion, double mu, double sigma_f) {
+    const Vec3 principal = principal_values(stress);
+    return std::max(shear_use(principal, cohesion, mu), tension_use(principal[0], sigma_f));
+}
+
+double rankine(const Mat3& stress, double sigma_f) { return tension_use(principal_values(stress)[0], sigma_f); }
 
 void averaged_criteria(const Bonds& b, const std::vector<Mat3>& stress, std::vector<double>& value,
                        std::vector<std::uint8_t>& shear_governs) {
@@ -96,10 +128,11 @@ void averaged_criteria(const Bonds& b, const std::vector<Mat3>& stress, std::vec
                 continue;
             }
             const Mat3 mean = 0.5 * (stress[static_cast<std::size_t>(b.i[k])] + stress[static_cast<std::size_t>(b.j[k])]);
-            const double tension = rankine(mean, law.averaged_sigma_f);
-            const bool coulomb = law.criterion == Criterion::mohr_coulomb;
-            value[k] = coulomb ? mohr_coulomb(mean, law.averaged_tau_f, law.mu_s, law.averaged_sigma_f) : tension;
-            shear_governs[k] = value[k] > tension ? 1 : 0;
+            const Vec3 principal = principal_values(mean);
+            const double tension = tension_use(principal[0], law.averaged_sigma_f);
+            const double shear = law.criterion == Criterion::mohr_coulomb ? shear_use(principal, law.averaged_tau_f, law.mu_s) : 0.0;
+            value[k] = std::max(shear, tension);
+            shear_governs[k] = shear > tension ? 1 : 0;
         }
     }
 }

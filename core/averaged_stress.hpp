@@ -22,6 +22,10 @@ std::vector<double> tributary_volumes(const Spheres& spheres, const Bonds& bonds
 std::vector<Mat3> sphere_stresses(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
                                   const std::vector<Pressure>& pressures, const std::vector<double>& volume);
 
+/// Mean stress of each sphere's vicinity: itself and the spheres it is still bonded to, weighted by their volumes, Pa. Single spheres of a
+/// random packing carry deviators of a third of an all-round pressure; their vicinities do not.
+std::vector<Mat3> vicinity_stresses(const Bonds& bonds, const std::vector<Mat3>& stress, const std::vector<double>& volume);
+
 /// Use of strength, 1 at failure, of a stress (compression positive, Pa) by Mohr-Coulomb with tension cut-off: over all planes the largest
 /// tau / (c + mu sigma), and largest tension over sigma_f.
 double mohr_coulomb(const Mat3& stress, double cohesion, double mu, double sigma_f);
@@ -29,7 +33,7 @@ double mohr_coulomb(const Mat3& stress, double cohesion, double mu, double sigma
 /// The same by Rankine: largest tension over sigma_f.
 double rankine(const Mat3& stress, double sigma_f);
 
-/// Criterion value of every bond with an averaged criterion, by the mean stress of its two spheres; failed bonds have 1. Bonds with
+/// Criterion value of every bond with an averaged criterion, by the mean of its two spheres' `stress`; failed bonds have 1. Bonds with
 /// criteria of their own are left as they are. `shear_governs` tells which part of the criterion was the larger.
 void averaged_criteria(const Bonds& bonds, const std::vector<Mat3>& stress, std::vector<double>& value,
                        std::vector<std::uint8_t>& shear_governs);

@@ -129,7 +129,8 @@ void Model::forces(bool measure) {
 
 // Bonds whose spheres' averaged stress has passed their criterion fail now, in bond order.
 void Model::fail_by_averaged_stress(bool measure) {
-    averaged_criteria(bonds, sphere_stresses(spheres, bonds, contacts, platens, pressures, volume_), averaged_value_, shear_governs_);
+    const auto single = sphere_stresses(spheres, bonds, contacts, platens, pressures, volume_);
+    averaged_criteria(bonds, vicinity_stresses(bonds, single, volume_), averaged_value_, shear_governs_);
     for (const auto& block : bonds.blocks) {
         if (bonds.laws[block.law].criterion == Criterion::bond) {
             continue;

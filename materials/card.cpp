@@ -23,12 +23,12 @@ void declare(input::Visitor& v, Card& c) {
              {{"dempack", "the thesis's bond: elasto-damage, elasto-plastic compression, friction after failure (5.2)"},
               {"dempack_released", "the bond as the released DEMpack code computes it; for comparison with it"}},
              "constitutive law of the bonds");
-    v.choice(
-        "criterion", c.criterion,
-        {{"bond", "each bond's own normal and shear force (5.20-5.26)"},
-         {"mohr_coulomb", "averaged stress of its two spheres: c = tau_f, tan phi = mu_s, cut off at sigma_f; at once, without softening"},
-         {"rankine", "averaged stress of its two spheres: largest tension sigma_f; at once, without softening"}},
-        "what decides that a bond fails");
+    v.choice("criterion", c.criterion,
+             {{"bond", "each bond's own normal and shear force (5.20-5.26)"},
+              {"mohr_coulomb",
+               "averaged stress of its two spheres' vicinities: c = tau_f, tan phi = mu_s, cut off at sigma_f; at once, without softening"},
+              {"rankine", "averaged stress of its two spheres' vicinities: largest tension sigma_f; at once, without softening"}},
+             "what decides that a bond fails");
     v.choice("area_rule", c.area_rule,
              {{"virtual_polyhedron", "weighted areas that partition space, thesis 5.3"},
               {"truncated_cone", "pi R_i R_j, (5.33)"},

@@ -24,8 +24,8 @@ enum class LawKind {
 /// What decides that a bond fails.
 enum class Criterion {
     bond,         ///< its own normal and shear force (5.20-5.26)
-    mohr_coulomb, ///< the averaged stress of its two spheres, Mohr-Coulomb with tension cut-off; at once, without softening
-    rankine       ///< the averaged stress of its two spheres, largest tension; at once, without softening
+    mohr_coulomb, ///< the averaged stress around its two spheres, Mohr-Coulomb with tension cut-off; at once, without softening
+    rankine       ///< the averaged stress around its two spheres, largest tension; at once, without softening
 };
 
 /// A law with everything the kernel needs. With an averaged criterion the law itself never fails: its strengths are infinite.

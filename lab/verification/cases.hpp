@@ -8,7 +8,10 @@ namespace proveta::verification {
 // Chapter 5
 Case polygon_areas();
 Case dempack_bond();
+Case two_body_energy();
 Case weak_equals_none();
+Case bonded_cantilever();
+Case hydrostatic_criterion();
 Case released_law();
 
 } // namespace proveta::verification
