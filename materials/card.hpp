@@ -33,6 +33,9 @@ struct Card {
     std::vector<double> yrc{3.0, 12.0, 22.0};
     double local_damping = 0.0;
     double contact_restitution = 0.2;
+    std::string restitution_rule = "corrected";
+    std::string contact_law = "linear";
+    double rolling_friction = 0.0;
 };
 
 void declare(input::Visitor& v, Card& card);
