@@ -5,6 +5,16 @@
 
 namespace proveta::verification {
 
+// Chapter 2
+Case restitution();
+Case rolling_resistance();
+Case parabolic_flight();
+Case lsd_impact();
+Case hertz_impact();
+Case sphere_between_plates();
+Case damped_critical_step();
+Case cylinder_precession();
+
 // Chapter 5
 Case polygon_areas();
 
