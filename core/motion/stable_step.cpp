@@ -105,7 +105,7 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
         bonds.size() > 0 ? std::accumulate(bonds.stiffness.begin(), bonds.stiffness.end(), 0.0) / static_cast<double>(bonds.size()) : 1.0;
     std::vector<double> eigenvalue(s.size());
     for (int sweep = 0; sweep < 12; ++sweep) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (s.size() > 256)
         for (std::size_t k = 0; k < s.size(); ++k) {
             Block block;
             add_bonds(s, bonds, k_t, k, share_, block);
@@ -137,7 +137,7 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
         }
     }
     double lowest = 1e300;
-#pragma omp parallel for schedule(static) reduction(min : lowest)
+#pragma omp parallel for schedule(static) reduction(min : lowest) if (s.size() > 256)
     for (std::size_t k = 0; k < s.size(); ++k) {
         Block block;
         add_bonds(s, bonds, k_t, k, share_, block);
