@@ -42,7 +42,7 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     dt_ = numerics_.safety * stable_;
     if (numerics_.time_step) {
         dt_ = *numerics_.time_step;
-        if (dt_ > stable_) {
+        if (dt_ > stable_ && numerics_.refuse_unstable) {
             throw UnstableStep(dt_, stable_);
         }
     }
@@ -51,7 +51,9 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
 
 void Model::step(const std::vector<double>& speeds, bool measure) {
     search();
-    forces(measure);
+    // The first forces are those of the start: velocities count, but nothing has moved yet.
+    const bool first = steps_ == 0;
+    forces(first ? 1e-9 * dt_ : dt_, measure || first);
     motion(speeds, measure);
     time_ += dt_;
     ++steps_;
@@ -86,38 +88,42 @@ void Model::search() {
     searched_at_ = spheres.position;
     travel_ = 0.0;
     ++searches_;
-    stable_ = bound_.limit(spheres, bonds, contacts, platens);
-    if (dt_ > stable_) {
+    stable_ = bound_.limit(spheres, bonds, contacts, platens, skin_);
+    if (dt_ > stable_ && numerics_.refuse_unstable) {
         dt_ = numerics_.safety * stable_; // new contacts have made the network stiffer
     }
 }
 
-void Model::forces(bool measure) {
+// elapsed: time since the last forces, over which springs are extended and energies counted.
+void Model::forces(double elapsed, bool measure) {
     failures_.clear();
-    const BondDissipation lost = bond_forces(spheres, bonds, dt_, measure, failures_);
+    const BondDissipation lost = bond_forces(spheres, bonds, elapsed, measure, failures_);
     broken_ += failures_.size();
     ledger_.damage += lost.damage;
     ledger_.plastic += lost.plastic;
     ledger_.friction += lost.friction;
     ledger_.dashpots += lost.dashpot;
 
-    const ContactEnergies in_contacts = contact_forces(spheres, contacts, dt_);
+    const ContactEnergies in_contacts = contact_forces(spheres, contacts, elapsed);
     ledger_.friction += in_contacts.friction;
     ledger_.dashpots += in_contacts.dashpot;
     double stored = in_contacts.stored;
+    if (contacts.rolls) {
+        ledger_.friction += rolling_torques(spheres, contacts, dt_) * elapsed;
+    }
 
     for (std::size_t p = 0; p < platens.size(); ++p) {
         Platen& platen = platens[p];
-        const PlatenEnergies at_platen = platen_forces(spheres, platen, dt_);
+        const PlatenEnergies at_platen = platen_forces(spheres, platen, elapsed, dt_);
         ledger_.friction += at_platen.friction;
         ledger_.dashpots += at_platen.dashpot;
         stored += at_platen.stored;
         // The platen pushes back with -reaction while it moves by velocity dt.
-        ledger_.platens -= 0.5 * (platen.reaction.z() + reactions_[p].z()) * platen.velocity * dt_;
+        ledger_.platens -= 0.5 * (platen.reaction.z() + reactions_[p].z()) * platen.velocity * elapsed;
         reactions_[p] = platen.reaction;
     }
     for (auto& pressure : pressures) {
-        ledger_.pressure += pressure_forces(spheres, pressure, dt_);
+        ledger_.pressure += pressure_forces(spheres, pressure, elapsed);
     }
     if (averaged_) {
         fail_by_averaged_stress(measure);
@@ -156,7 +162,18 @@ void Model::fail_by_averaged_stress(bool measure) {
 }
 
 void Model::motion(const std::vector<double>& speeds, bool measure) {
-    const MotionSums sums = move_spheres(spheres, bonds, contacts, numerics_.damping, dt_, measure);
+    const bool first = steps_ == 0;
+    if (measure && !numerics_.gravity.isZero()) {
+        ledger_.body = 0.0;
+        for (std::size_t k = 0; k < spheres.size(); ++k) {
+            ledger_.body += spheres.mass[k] * numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
+        }
+    }
+    const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity};
+    const MotionSums sums = move_spheres(spheres, bonds, contacts, rule, dt_, first, measure || first);
+    if (first) {
+        ledger_.initial = sums.kinetic + ledger_.elastic;
+    }
     double fastest = sums.fastest;
     for (std::size_t p = 0; p < platens.size(); ++p) {
         platens[p].move(speeds[p], dt_);
@@ -188,10 +205,10 @@ void Model::restored() {
     const std::size_t n = contacts.i.size();
     contacts.normal.assign(n, 0.0);
     contacts.forces.assign(n, {});
-    for (std::size_t k = 0; k < n; ++k) {
-        contacts.forces[k].share_i = lever_share(spheres, contacts.i[k], contacts.j[k]);
+    set_up_contacts(spheres, materials, weight_, contacts);
+    for (auto& platen : platens) {
+        set_up_platen(spheres, materials, platen);
     }
-    contacts.incidence = make_incidence(spheres.size(), contacts.i, contacts.j);
     broken_ = bonds.size() - static_cast<std::size_t>(std::count(bonds.mode.begin(), bonds.mode.end(), std::uint8_t{0}));
     failures_.clear();
 }

@@ -25,6 +25,9 @@ struct Numerics {
     double safety = 0.9;             ///< fraction of the bound on the stable step
     double skin = 0.1;               ///< of the neighbour lists, over the mean radius
     BackgroundDamping damping;
+    Scheme scheme = Scheme::velocity_verlet;
+    Vec3 gravity = Vec3::Zero(); ///< m/s2
+    bool refuse_unstable = true; ///< false only to study how a scheme diverges: a step above the stable one is kept
 };
 
 /// What `Model::step(true)` measured besides the ledger; values at the time of the last forces.
@@ -46,7 +49,8 @@ struct NumericalFailure : std::runtime_error {
 /// A specimen with its boundaries. Public members are the state; the class keeps the step in order.
 class Model {
   public:
-    /// Takes spheres (at rest), their materials and bonds. weight: area weights of `make_bonds`. Throws UnstableStep.
+    /// Takes spheres (with the velocities they have at time 0, at rest or set afterwards), their materials and bonds. weight: area weights
+    /// of `make_bonds`. Throws UnstableStep.
     Model(Spheres spheres, std::vector<Material> materials, Bonds bonds, std::vector<double> weight, std::vector<Platen> platens,
           const Numerics& numerics);
 
@@ -84,7 +88,7 @@ class Model {
 
   private:
     void search();
-    void forces(bool measure);
+    void forces(double elapsed, bool measure);
     void fail_by_averaged_stress(bool measure);
     void motion(const std::vector<double>& speeds, bool measure);
     void check() const;
@@ -135,12 +139,8 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     }
     visit("contact_i", contacts.i);
     visit("contact_j", contacts.j);
-    visit("contact_distance", contacts.contact_distance);
-    visit("contact_stiffness", contacts.stiffness);
-    visit("contact_shear_stiffness", contacts.shear_stiffness);
-    visit("contact_dashpot", contacts.dashpot);
-    visit("contact_friction", contacts.friction);
     field("contact_slip", contacts.slip);
+    field("contact_viscous", contacts.viscous);
     for (std::size_t p = 0; p < platens.size(); ++p) {
         const std::string name = "platen_" + std::to_string(p) + "_";
         Platen& platen = platens[p];
@@ -148,11 +148,9 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit(name + "velocity", platen.velocity);
         visit(name + "searched_at", platens_at_[p]);
         visit(name + "sphere", platen.sphere);
-        visit(name + "contact_distance", platen.contact_distance);
-        visit(name + "stiffness", platen.stiffness);
-        visit(name + "shear_stiffness", platen.shear_stiffness);
         visit(name + "slip_x", platen.slip_x);
         visit(name + "slip_y", platen.slip_y);
+        field(name + "viscous", platen.viscous);
         visit(name + "reaction_x", reactions_[p].x());
         visit(name + "reaction_y", reactions_[p].y());
         visit(name + "reaction_z", reactions_[p].z());
@@ -171,6 +169,8 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("fastest", fastest_);
     for (auto [name, value] : {std::pair{"platens", &ledger_.platens},
                                {"pressure", &ledger_.pressure},
+                               {"body", &ledger_.body},
+                               {"initial", &ledger_.initial},
                                {"elastic", &ledger_.elastic},
                                {"kinetic", &ledger_.kinetic},
                                {"damage", &ledger_.damage},

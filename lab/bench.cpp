@@ -143,7 +143,11 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     }
     numerics.safety = deck.numerics.safety;
     numerics.skin = deck.numerics.skin;
-    numerics.damping = {deck.numerics.damping_translation, deck.numerics.damping_rotation};
+    numerics.damping = {deck.numerics.damping_translation, deck.numerics.damping_rotation, deck.numerics.damping == "viscous"};
+    numerics.scheme = deck.numerics.scheme == "symplectic_euler" ? Scheme::symplectic_euler
+                      : deck.numerics.scheme == "forward_euler"  ? Scheme::forward_euler
+                      : deck.numerics.scheme == "taylor"         ? Scheme::taylor
+                                                                 : Scheme::velocity_verlet;
     try {
         bench.model = std::make_unique<Model>(std::move(spheres), std::move(materials), std::move(bonds), std::move(weight),
                                               std::move(platens), numerics);

@@ -33,10 +33,20 @@ void declare(input::Visitor& v, NumericsInput& n) {
     v.number_or_word("time_step", n.time_step, {{"auto", "safety times the bound on the stable step"}}, Unit::time, above(0),
                      "time step; one above the stable step is refused");
     v.number("safety", n.safety, Unit::none, {0.0, 1.0, true, false}, "fraction of the bound on the stable step");
-    v.number("damping_translation", n.damping_translation, Unit::none, {0.0, 1.0, false, true},
-             "alpha_t of the non-viscous background damping (5.18)");
-    v.number("damping_rotation", n.damping_rotation, Unit::none, {0.0, 1.0, false, true},
-             "alpha_r of the non-viscous background damping (5.19)");
+    v.choice("scheme", n.scheme,
+             {{"velocity_verlet", "second order, stable up to the stable step"},
+              {"symplectic_euler", "the same path with velocities of whole steps; first order where forces act from the start"},
+              {"forward_euler", "unstable without damping whatever the step; for comparison"},
+              {"taylor", "unstable without damping whatever the step; for comparison"}},
+             "integration scheme (2.6.1)");
+    v.choice("damping", n.damping,
+             {{"nonviscous", "a share of the unbalanced force against the velocity (5.18-5.19)"},
+              {"viscous", "a force against the velocity in proportion to velocity and mass"}},
+             "background damping");
+    v.number("damping_translation", n.damping_translation, Unit::none, at_least(0),
+             "alpha_t of the background damping, below 1; viscous: rate in 1/s");
+    v.number("damping_rotation", n.damping_rotation, Unit::none, at_least(0),
+             "alpha_r of the background damping, below 1; viscous: rate in 1/s");
     v.number("skin", n.skin, Unit::none, between(0.01, 2), "skin of the neighbour lists over the mean radius; changes speed, not results");
 }
 
@@ -90,6 +100,15 @@ Deck read_deck(const Json& given, const std::string& file) {
     check_card(deck.material.values, file, "/material", problems);
     for (std::size_t k = 0; k < deck.regions.size(); ++k) {
         check_card(deck.regions[k].material.values, file, fmt::format("/regions/{}/material", k), problems);
+    }
+    if (deck.numerics.damping != "viscous") {
+        for (const auto& [key, value] : {std::pair{"damping_translation", deck.numerics.damping_translation},
+                                         std::pair{"damping_rotation", deck.numerics.damping_rotation}}) {
+            if (value >= 1.0) {
+                problems.push_back({file, fmt::format("/numerics/{}", key), fmt::format("{:.6g}", value), "a share of the force below 1",
+                                    "a rate in 1/s goes with \"damping\": \"viscous\""});
+            }
+        }
     }
     if (problems.empty()) {
         deck.protocol->check(deck.specimen, file, "/loading", problems);

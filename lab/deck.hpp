@@ -29,6 +29,8 @@ struct BondingInput {
 struct NumericsInput {
     input::NumberOrWord time_step{0.0, "auto"};
     double safety = 0.9;
+    std::string scheme = "velocity_verlet";
+    std::string damping = "nonviscous";
     double damping_translation = 0.2;
     double damping_rotation = 0.2;
     double skin = 0.1;

@@ -68,6 +68,16 @@ void declare(input::Visitor& v, Card& c) {
              "fraction of critical damping in each bond's normal direction (5.15)");
     v.number("contact_restitution", c.contact_restitution, Unit::none, {0.0, 1.0, true, false},
              "normal restitution of contacts between unbonded spheres (2.21)");
+    v.choice("restitution_rule", c.restitution_rule,
+             {{"corrected", "so that the contact, which never pulls, gives the restitution back"},
+              {"nominal", "by (2.21), which holds for contacts that pull: 0.5 asked gives 0.550 (linear) or 0.523 (hertz)"}},
+             "how contact_restitution becomes a dashpot");
+    v.choice("contact_law", c.contact_law,
+             {{"linear", "LS+D (2.5.1), with the stiffness that a bond of the two spheres would have"},
+              {"hertz", "HM+D (2.5.2), from young_modulus and poisson_ratio; where both spheres ask for it"}},
+             "law of contacts between unbonded spheres");
+    v.number("rolling_friction", c.rolling_friction, Unit::none, between(0, 10),
+             "eta_r of the rolling resistance in contacts between unbonded spheres (2.42)");
 }
 
 Material to_material(const Card& c) {
@@ -80,6 +90,9 @@ Material to_material(const Card& c) {
     m.shear_factor = c.shear_factor;
     m.local_damping = c.local_damping;
     m.contact_restitution = c.contact_restitution;
+    m.restitution_rule = c.restitution_rule == "nominal" ? RestitutionRule::nominal : RestitutionRule::corrected;
+    m.contact_law = c.contact_law == "hertz" ? ContactLaw::hertz : ContactLaw::linear;
+    m.rolling_friction = c.rolling_friction;
     m.area_factor = c.area_factor;
     m.area_rule = c.area_rule == "minimum_radius"   ? AreaRule::minimum_radius
                   : c.area_rule == "truncated_cone" ? AreaRule::truncated_cone

@@ -42,6 +42,9 @@ struct Card {
     double twisting_factor = 0.0;
     double local_damping = 0.0;
     double contact_restitution = 0.2;
+    std::string restitution_rule = "corrected";
+    std::string contact_law = "linear";
+    double rolling_friction = 0.0;
 };
 
 void declare(input::Visitor& v, Card& card);

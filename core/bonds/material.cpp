@@ -41,6 +41,10 @@ Material equivalent(const Material& a, const Material& b) {
     m.shear_factor = mean(a.shear_factor, b.shear_factor);
     m.local_damping = mean(a.local_damping, b.local_damping);
     m.contact_restitution = mean(a.contact_restitution, b.contact_restitution);
+    m.restitution_rule = std::min(a.restitution_rule, b.restitution_rule);
+    m.contact_law = std::min(a.contact_law, b.contact_law);
+    m.rolling_friction = std::min(a.rolling_friction, b.rolling_friction);
+    m.contact_tension = a.contact_tension && b.contact_tension;
     m.area_factor = mean(a.area_factor, b.area_factor);
     m.bond.sigma_f = std::min(a.bond.sigma_f, b.bond.sigma_f);
     m.bond.tau_f = std::min(a.bond.tau_f, b.bond.tau_f);

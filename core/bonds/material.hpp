@@ -1,6 +1,7 @@
 // What the physics needs to know of a material: the numbers of a card, without its paper.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "core/bonds/bond_law.hpp"
@@ -9,6 +10,12 @@ namespace proveta {
 
 /// Rule that gives the effective area of a bond (model: effective areas; thesis 5.1.3, 5.3).
 enum class AreaRule { minimum_radius, truncated_cone, virtual_polyhedron };
+
+/// Law of loose contacts (thesis 2.5.1, 2.5.2).
+enum class ContactLaw : std::uint8_t { linear, hertz };
+
+/// How a restitution becomes a dashpot: by (2.21), or so that the law as it runs, which never pulls, gives it back.
+enum class RestitutionRule : std::uint8_t { corrected, nominal };
 
 /// Rules that turn the material of a card into bonds, contacts and masses. SI units.
 struct Material {
@@ -20,6 +27,10 @@ struct Material {
     double shear_factor = 1.0;        ///< b in k_t = b G A / L
     double local_damping = 0.0;       ///< xi of the dashpot c_n = 2 xi sqrt(m_eq k_n) in each bond
     double contact_restitution = 0.2; ///< normal restitution of new contacts
+    RestitutionRule restitution_rule = RestitutionRule::corrected;
+    ContactLaw contact_law = ContactLaw::linear;
+    double rolling_friction = 0.0; ///< eta_r (2.42)
+    bool contact_tension = false;  ///< loose contacts may pull: for comparison with closed forms only
     AreaRule area_rule = AreaRule::virtual_polyhedron;
     double area_factor = 1.0;       ///< global alpha on the areas (5.4-5.6)
     BondLaw bond;                   ///< `shear_ratio`, `opening_f` and `slip_f` are derived, see `bond_law`
@@ -35,8 +46,8 @@ BondLaw bond_law(const Material& material);
 /// shear) in Pa: 2 E G / sigma^2, m.
 double longest_bond(double modulus, double fracture_energy, double strength);
 
-/// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest. Symmetric in a and b;
-/// of two equal materials it is that material.
+/// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest; of two contact
+/// laws or restitution rules the default one. Symmetric in a and b; of two equal materials it is that material.
 Material equivalent(const Material& a, const Material& b);
 
 } // namespace proveta

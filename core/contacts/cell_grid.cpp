@@ -59,7 +59,7 @@ std::vector<Pair> find_pairs(const VectorField& positions, const std::vector<dou
     const double largest = *std::max_element(radii.begin(), radii.end());
     const CellGrid grid(positions, 2.0 * factor * largest + gap);
     std::vector<std::vector<Pair>> found(n);
-#pragma omp parallel for schedule(dynamic, 256)
+#pragma omp parallel for schedule(dynamic, 256) if (positions.size() > 512)
     for (std::size_t i = 0; i < n; ++i) {
         grid.near(i, [&](std::uint32_t j) {
             if (j <= i) {

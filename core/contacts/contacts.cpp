@@ -2,20 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/contacts/cell_grid.hpp"
-#include "core/contacts/linear_law.hpp"
 #include "core/contacts/pair_kinematics.hpp"
+#include "core/contacts/rolling.hpp"
 
 namespace proveta {
 
 void Contacts::resize(std::size_t n) {
     i.resize(n);
     j.resize(n);
-    for (auto* array : {&contact_distance, &stiffness, &shear_stiffness, &dashpot, &friction, &normal}) {
+    for (auto* array : {&contact_distance, &normal}) {
         array->resize(n, 0.0);
     }
+    law.resize(n);
     slip.resize(n);
+    viscous.resize(n);
     forces.resize(n);
 }
 
@@ -49,31 +52,45 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::
     c.resize(pairs.size());
     std::size_t before = 0; // both lists are sorted by (i, j)
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const auto [a, b] = pairs[k];
-        const auto i = static_cast<std::size_t>(a);
-        const auto j = static_cast<std::size_t>(b);
-        c.i[k] = a;
-        c.j[k] = b;
-        const double touch = spheres.radius[i] + spheres.radius[j];
-        c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), touch);
-        const Material m =
-            equivalent(materials[static_cast<std::size_t>(spheres.material[i])], materials[static_cast<std::size_t>(spheres.material[j])]);
-        const double area = contact_area(m.area_rule, spheres.radius[i], spheres.radius[j], weight[i], weight[j]);
-        c.stiffness[k] = m.normal_factor * m.young_modulus * area / touch;
-        c.shear_stiffness[k] = bond_law(m).shear_ratio * c.stiffness[k];
-        const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
-        c.dashpot[k] = 2.0 * linear::damping_ratio(m.contact_restitution) * std::sqrt(reduced * c.stiffness[k]);
-        c.friction[k] = m.bond.mu_d;
-        c.forces[k].share_i = lever_share(spheres, a, b);
+        c.i[k] = pairs[k].i;
+        c.j[k] = pairs[k].j;
         while (before < old.size() && Pair{old.i[before], old.j[before]} < pairs[k]) {
             ++before;
         }
         if (before < old.size() && Pair{old.i[before], old.j[before]} == pairs[k]) {
             c.slip.set(k, old.slip.at(before));
+            c.viscous.set(k, old.viscous.at(before));
         }
     }
-    c.incidence = make_incidence(spheres.size(), c.i, c.j);
+    set_up_contacts(spheres, materials, weight, c);
     return c;
+}
+
+void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& c) {
+    const std::size_t kinds = materials.size();
+    std::vector<LoosePair> pairs;
+    pairs.reserve(kinds * kinds);
+    for (const auto& a : materials) {
+        for (const auto& b : materials) {
+            pairs.push_back(loose_pair(a, b));
+        }
+    }
+    c.resize(c.i.size());
+    c.rolls = false;
+    for (std::size_t k = 0; k < c.size(); ++k) {
+        const auto i = static_cast<std::size_t>(c.i[k]);
+        const auto j = static_cast<std::size_t>(c.j[k]);
+        const double r_i = spheres.radius[i];
+        const double r_j = spheres.radius[j];
+        c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), r_i + r_j);
+        const LoosePair& pair =
+            pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
+        c.law[k] =
+            loose_contact(pair, r_i, spheres.mass[i], r_j, spheres.mass[j], contact_area(pair.area_rule, r_i, r_j, weight[i], weight[j]));
+        c.rolls = c.rolls || c.law[k].rolling_arm > 0.0;
+        c.forces[k].share_i = lever_share(spheres, c.i[k], c.j[k]);
+    }
+    c.incidence = make_incidence(spheres.size(), c.i, c.j);
 }
 
 ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, double dt) {
@@ -86,11 +103,20 @@ ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, doubl
         for (std::size_t k = part * block; k < std::min(n, (part + 1) * block); ++k) {
             const double old[3] = {contacts.slip.x[k], contacts.slip.y[k], contacts.slip.z[k]};
             auto pair = pair_kinematics<double>(view, &contacts.i[k], &contacts.j[k], contacts.forces[k].share_i, old, dt);
-            const linear::Parameters<double> p{contacts.stiffness[k], contacts.shear_stiffness[k], contacts.dashpot[k],
-                                               contacts.friction[k]};
+            // The dashpots' last force, taken apart along the pair's present frame.
+            const double last[3] = {contacts.viscous.x[k], contacts.viscous.y[k], contacts.viscous.z[k]};
+            const double pulled = last[0] * pair.n[0] + last[1] * pair.n[1] + last[2] * pair.n[2];
+            contact::State<double> state;
+            state.viscous = -pulled;
+            for (int c = 0; c < 3; ++c) {
+                state.u_t[c] = pair.turned[c];
+                state.viscous_t[c] = last[c] - pulled * pair.n[c];
+            }
             const auto r =
-                linear::advance<double>(p, contacts.contact_distance[k] - pair.distance, -pair.separation * dt, dt, pair.slip, pair.turned);
-            contacts.slip.set(k, {pair.turned[0], pair.turned[1], pair.turned[2]});
+                advance(contacts.law[k], contacts.contact_distance[k] - pair.distance, -pair.separation * dt, dt, pair.slip, state);
+            contacts.slip.set(k, {state.u_t[0], state.u_t[1], state.u_t[2]});
+            contacts.viscous.set(k, {state.viscous_t[0] - state.viscous * pair.n[0], state.viscous_t[1] - state.viscous * pair.n[1],
+                                     state.viscous_t[2] - state.viscous * pair.n[2]});
             contacts.normal[k] = r.normal;
             store_pair_forces(&contacts.forces[k], pair, r.normal, r.shear);
             parts[part].stored += r.stored;
@@ -105,6 +131,30 @@ ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, doubl
         sum.dashpot += p.dashpot;
     }
     return sum;
+}
+
+double rolling_torques(Spheres& s, const Contacts& contacts, double dt) {
+    std::vector<double> power(s.size(), 0.0);
+    const auto& in = contacts.incidence;
+#pragma omp parallel for schedule(static) if (s.size() > 1024)
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        Vec3 sum = Vec3::Zero();
+        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
+            const auto p = in.entry[e] >> 1;
+            const LooseContact& law = contacts.law[p];
+            if (!(contacts.normal[p] > 0.0 && law.rolling_arm > 0.0)) {
+                continue;
+            }
+            const bool second = (in.entry[e] & 1u) != 0;
+            const Vec3 spin = s.spin.at(k) - s.spin.at(static_cast<std::size_t>(second ? contacts.i[p] : contacts.j[p]));
+            const double relative[3] = {spin.x(), spin.y(), spin.z()};
+            const auto r = rolling::torque<double>(law.rolling_arm, contacts.normal[p], law.reduced_inertia, relative, dt);
+            sum += Vec3(r.torque[0], r.torque[1], r.torque[2]);
+            power[k] += 0.5 * r.power; // each side of the pair counts half
+        }
+        s.external_torque.add(k, sum);
+    }
+    return std::accumulate(power.begin(), power.end(), 0.0);
 }
 
 } // namespace proveta

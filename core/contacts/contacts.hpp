@@ -1,4 +1,4 @@
-// Contacts between spheres that were never bonded: neighbour list with a skin, tangential history, LS+D law.
+// Contacts between spheres that were never bonded: neighbour list with a skin, tangential history, law of the pair.
 #pragma once
 
 #include <vector>
@@ -6,6 +6,7 @@
 #include "core/bonds/bonds.hpp"
 #include "core/bonds/material.hpp"
 #include "core/contacts/incidence.hpp"
+#include "core/contacts/loose.hpp"
 #include "core/contacts/pair_force.hpp"
 #include "core/particles/spheres.hpp"
 
@@ -15,14 +16,13 @@ namespace proveta {
 struct Contacts {
     std::vector<std::int32_t> i, j;
     std::vector<double> contact_distance; ///< min(d(0), R_i + R_j): overlaps of a dense packing store nothing, m
-    std::vector<double> stiffness;        ///< k_n as a bond of the pair would have, N/m
-    std::vector<double> shear_stiffness;  ///< k_t, N/m
-    std::vector<double> dashpot;          ///< c_n, N s/m
-    std::vector<double> friction;         ///< mu_d of the pair
+    std::vector<LooseContact> law;        ///< constants; the linear law has the stiffness that a bond of the pair would have
     VectorField slip;                     ///< u_t, m
+    VectorField viscous;                  ///< force of the dashpots on i at the last step, N
     std::vector<double> normal;           ///< F_n of the last step, N
     std::vector<PairForce> forces;
     Incidence incidence;
+    bool rolls = false; ///< some pair has rolling resistance
 
     [[nodiscard]] std::size_t size() const { return i.size(); }
     void resize(std::size_t n);
@@ -38,12 +38,19 @@ struct ContactEnergies {
     double dashpot = 0.0;
 };
 
-/// Lists anew all unbonded pairs nearer than R_i + R_j + skin, keeping the tangential history of those that were listed. weight: area
-/// weights of `make_bonds`; skin in m.
+/// Lists anew all unbonded pairs nearer than R_i + R_j + skin, keeping the history of those that were listed. weight: area weights of
+/// `make_bonds`; skin in m.
 Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials,
                          const std::vector<double>& weight, double skin, const Contacts& old);
 
+/// Fills in what follows from the pairs themselves: contact distances, laws, lever shares, incidence.
+void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& contacts);
+
 /// Advances every contact by dt seconds and fills `contacts.forces`.
 ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, double dt);
+
+/// Adds the rolling resistance of every contact to the spheres' external torques, for the normal forces of the last `contact_forces` and a
+/// step of dt seconds. Returns the dissipated power, W.
+double rolling_torques(Spheres& spheres, const Contacts& contacts, double dt);
 
 } // namespace proveta

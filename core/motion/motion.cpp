@@ -33,30 +33,41 @@ void gather_couples(const VectorField& couples, const Incidence& incidence, std:
 }
 
 // One vector quantity (translation or rotation) through one step; returns the work of the damping.
-double kick(Vec3& velocity, const Vec3& load, double inertia, double alpha, double dt) {
-    const double speed = velocity.norm();
+template <bool viscous> double kick(Vec3& velocity, const Vec3& load, double inertia, double alpha, double dt) {
     Vec3 damping = Vec3::Zero();
-    if (alpha > 0.0 && speed > 0.0) {
-        damping = velocity * (-alpha * load.norm() / speed);
+    Vec3 after;
+    if constexpr (viscous) {
+        const double half = 0.5 * alpha * dt;
+        after = (velocity * (1.0 - half) + load * (dt / inertia)) / (1.0 + half);
+        damping = -0.5 * alpha * inertia * (velocity + after);
+    } else {
+        const double speed = velocity.norm();
+        if (alpha > 0.0 && speed > 0.0) {
+            damping = velocity * (-alpha * load.norm() / speed);
+        }
+        after = velocity + (load + damping) * (dt / inertia);
     }
-    const Vec3 after = velocity + (load + damping) * (dt / inertia);
     const double work = -0.5 * dt * damping.dot(velocity + after);
     velocity = after;
     return work;
 }
 
-} // namespace
+// Which velocity carries the positions over a step: the new one, the old one, or the mean of both.
+enum class Carrier { after, before, mean };
 
-MotionSums move_spheres(Spheres& s, const Bonds& bonds, const Contacts& contacts, const BackgroundDamping& damping, double dt,
-                        bool measure) {
+template <Carrier carrier, bool viscous>
+MotionSums move(Spheres& s, const Bonds& bonds, const Contacts& contacts, const MotionRule& rule, double dt, bool first, bool measure) {
     constexpr std::size_t block = 256;
     const std::size_t n = s.size();
+    const bool lags = rule.scheme == Scheme::velocity_verlet && !first; // velocities half a step behind the forces
+    const double kick_dt = rule.scheme == Scheme::velocity_verlet && first ? 0.5 * dt : dt;
+    const double newer = lags ? 0.5 : 0.0; // share of the new velocity in that at the time of the forces
     std::vector<MotionSums> parts((n + block - 1) / block);
 #pragma omp parallel for schedule(static) if (parts.size() > 1)
     for (std::size_t part = 0; part < parts.size(); ++part) {
         MotionSums& out = parts[part];
         for (std::size_t k = part * block; k < std::min(n, (part + 1) * block); ++k) {
-            Sum sum{s.external_force.at(k), s.external_torque.at(k)};
+            Sum sum{s.external_force.at(k) + s.mass[k] * rule.gravity, s.external_torque.at(k)};
             gather_pairs(bonds.forces, bonds.incidence, k, sum);
             if (bonds.moments) {
                 gather_couples(bonds.couple, bonds.incidence, k, sum);
@@ -66,18 +77,24 @@ MotionSums move_spheres(Spheres& s, const Bonds& bonds, const Contacts& contacts
             Vec3 w = s.spin.at(k);
             const Vec3 v_before = v;
             const Vec3 w_before = w;
-            out.damping_work += kick(v, sum.force, s.mass[k], damping.translation, dt);
-            out.damping_work += kick(w, sum.torque, s.inertia[k], damping.rotation, dt);
+            out.damping_work += kick<viscous>(v, sum.force, s.mass[k], rule.damping.translation, kick_dt);
+            out.damping_work += kick<viscous>(w, sum.torque, s.inertia[k], rule.damping.rotation, kick_dt);
             out.fastest = std::max(out.fastest, v.squaredNorm());
             if (measure) {
-                out.kinetic += 0.125 * (s.mass[k] * (v + v_before).squaredNorm() + s.inertia[k] * (w + w_before).squaredNorm());
+                out.kinetic += 0.5 * s.mass[k] * (v_before + newer * (v - v_before)).squaredNorm();
+                out.kinetic += 0.5 * s.inertia[k] * (w_before + newer * (w - w_before)).squaredNorm();
                 out.unbalanced += sum.force.norm();
                 s.force.set(k, sum.force);
                 s.torque.set(k, sum.torque);
             }
             s.velocity.set(k, v);
             s.spin.set(k, w);
-            s.position.add(k, v * dt);
+            if constexpr (carrier == Carrier::after) {
+                s.position.add(k, v * dt);
+            } else {
+                out.fastest = std::max(out.fastest, v_before.squaredNorm());
+                s.position.add(k, (carrier == Carrier::before ? v_before : Vec3(0.5 * (v_before + v))) * dt);
+            }
             s.external_force.set(k, Vec3::Zero());
             s.external_torque.set(k, Vec3::Zero());
         }
@@ -91,6 +108,23 @@ MotionSums move_spheres(Spheres& s, const Bonds& bonds, const Contacts& contacts
     }
     total.fastest = std::sqrt(total.fastest);
     return total;
+}
+
+template <Carrier carrier>
+MotionSums move(Spheres& s, const Bonds& bonds, const Contacts& contacts, const MotionRule& rule, double dt, bool first, bool measure) {
+    return rule.damping.viscous ? move<carrier, true>(s, bonds, contacts, rule, dt, first, measure)
+                                : move<carrier, false>(s, bonds, contacts, rule, dt, first, measure);
+}
+
+} // namespace
+
+MotionSums move_spheres(Spheres& s, const Bonds& bonds, const Contacts& contacts, const MotionRule& rule, double dt, bool first,
+                        bool measure) {
+    switch (rule.scheme) {
+    case Scheme::forward_euler: return move<Carrier::before>(s, bonds, contacts, rule, dt, first, measure);
+    case Scheme::taylor: return move<Carrier::mean>(s, bonds, contacts, rule, dt, first, measure);
+    default: return move<Carrier::after>(s, bonds, contacts, rule, dt, first, measure);
+    }
 }
 
 } // namespace proveta

@@ -3,6 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "core/contacts/rolling.hpp"
 
 namespace proveta {
 
@@ -14,9 +17,11 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 struct Block {
     Mat6 stiffness = Mat6::Zero();
     Mat6 damping = Mat6::Zero();
+    double rolling = 0.0; // 2 dt C of the rolling resistances, over the inertia
 
-    // A spring with outward normal n: normal and tangential stiffness, dashpot, lever arm; `weight` is the sphere's share of it.
-    void add(const Vec3& n, double k_n, double k_t, double c_n, double lever, double weight) {
+    // A spring with outward normal n: stiffnesses and dashpots, lever arm; `weight` is the sphere's share of it.
+    void add(const Vec3& n, const Stiffness& spring, double lever, double weight) {
+        const auto& [k_n, k_t, c_n, c_t] = spring;
         const Mat3 nn = n * n.transpose();
         const Mat3 tt = Mat3::Identity() - nn;
         Mat3 cross;
@@ -25,7 +30,12 @@ struct Block {
         stiffness.bottomRightCorner<3, 3>() += weight * k_t * lever * lever * tt;
         stiffness.topRightCorner<3, 3>() -= weight * k_t * lever * cross;
         stiffness.bottomLeftCorner<3, 3>() += weight * k_t * lever * cross;
-        damping.topLeftCorner<3, 3>() += weight * c_n * nn;
+        damping.topLeftCorner<3, 3>() += weight * (c_n * nn + c_t * tt);
+        if (c_t > 0.0) {
+            damping.bottomRightCorner<3, 3>() += weight * c_t * lever * lever * tt;
+            damping.topRightCorner<3, 3>() -= weight * c_t * lever * cross;
+            damping.bottomLeftCorner<3, 3>() += weight * c_t * lever * cross;
+        }
     }
 
     // Bending and twisting stiffness of a bond.
@@ -34,7 +44,7 @@ struct Block {
         stiffness.bottomRightCorner<3, 3>() += weight * (bend * (Mat3::Identity() - nn) + twist * nn);
     }
 
-    // Step at which lambda(K) dt^2 + 2 lambda(C) dt = 4, and the stiffness eigenvalue.
+    // Step at which lambda(K) dt^2 + 2 lambda(C) dt + rolling = 4, and the stiffness eigenvalue.
     std::pair<double, double> limit(double mass, double inertia, bool damped) const {
         Eigen::Matrix<double, 6, 1> scale;
         scale << Vec3::Constant(1.0 / std::sqrt(mass)), Vec3::Constant(1.0 / std::sqrt(inertia));
@@ -47,13 +57,15 @@ struct Block {
         if (k <= 0.0) {
             return {1e300, k};
         }
-        return {4.0 / (c + std::sqrt(c * c + 4.0 * k)), k};
+        const double left = std::max(4.0 - rolling, 0.04); // more than seventy neighbours that all roll on one sphere are out of reach
+        return {left / (c + std::sqrt(c * c + left * k)), k};
     }
 };
 
-template <class Pairs>
-void add_pairs(const Spheres& s, const Pairs& pairs, const std::vector<double>& k_t, std::size_t sphere, const std::vector<double>& g,
-               Block& block) {
+// Adds every spring of a sphere; spring(p, d) are the stiffnesses of pair p at distance d, rolling(p) its inertia against rolling or 0.
+template <class Pairs, class Spring, class Rolling>
+void add_pairs(const Spheres& s, const Pairs& pairs, const Spring& spring, const Rolling& rolling, std::size_t sphere,
+               const std::vector<double>& g, Block& block) {
     const auto& in = pairs.incidence;
     for (auto e = in.offset[sphere]; e < in.offset[sphere + 1]; ++e) {
         const auto p = in.entry[e] >> 1;
@@ -62,20 +74,9 @@ void add_pairs(const Spheres& s, const Pairs& pairs, const std::vector<double>& 
         const Vec3 to = s.position.at(other) - s.position.at(sphere);
         const double d = to.norm();
         const double share = second ? 1.0 - pairs.forces[p].share_i : pairs.forces[p].share_i;
-        block.add(to / d, pairs.stiffness[p], k_t[p], pairs.dashpot[p], share * d, 1.0 + g[other] / g[sphere]);
-    }
-}
-
-// The moments of the bonds of one sphere, with the same split as their springs.
-void add_moments(const Spheres& s, const Bonds& bonds, const std::vector<std::uint32_t>& law, std::size_t sphere,
-                 const std::vector<double>& g, Block& block) {
-    for (auto e = bonds.incidence.offset[sphere]; e < bonds.incidence.offset[sphere + 1]; ++e) {
-        const auto b = bonds.incidence.entry[e] >> 1;
-        const auto other = static_cast<std::size_t>((bonds.incidence.entry[e] & 1u) != 0 ? bonds.i[b] : bonds.j[b]);
-        const BondLaw& l = bonds.laws[law[b]];
-        block.add_moments((s.position.at(other) - s.position.at(sphere)).normalized(),
-                          l.bending_stiffness(bonds.stiffness[b], bonds.area[b]), l.twisting_stiffness(bonds.stiffness[b], bonds.area[b]),
-                          1.0 + g[other] / g[sphere]);
+        const double weight = 1.0 + g[other] / g[sphere];
+        block.add(to / d, spring(p, d), share * d, weight);
+        block.rolling += weight * 2.0 * rolling::share * rolling(p) / s.inertia[sphere];
     }
 }
 
@@ -88,6 +89,25 @@ std::vector<std::uint32_t> laws_of(const Bonds& bonds) {
         }
     }
     return law;
+}
+
+// The springs of one sphere's bonds and, with the same split, their moments. law: of each bond, as `laws_of`.
+void add_bonds(const Spheres& s, const Bonds& bonds, const std::vector<double>& k_t, const std::vector<std::uint32_t>& law,
+               std::size_t sphere, const std::vector<double>& g, Block& block) {
+    add_pairs(
+        s, bonds,
+        [&](std::size_t p, double) {
+            return Stiffness{bonds.stiffness[p], k_t[p], bonds.dashpot[p], 0.0};
+        },
+        [](std::size_t) { return 0.0; }, sphere, g, block);
+    for (auto e = bonds.incidence.offset[sphere]; bonds.moments && e < bonds.incidence.offset[sphere + 1]; ++e) {
+        const auto b = bonds.incidence.entry[e] >> 1;
+        const auto other = static_cast<std::size_t>((bonds.incidence.entry[e] & 1u) != 0 ? bonds.i[b] : bonds.j[b]);
+        const BondLaw& l = bonds.laws[law[b]];
+        block.add_moments((s.position.at(other) - s.position.at(sphere)).normalized(),
+                          l.bending_stiffness(bonds.stiffness[b], bonds.area[b]), l.twisting_stiffness(bonds.stiffness[b], bonds.area[b]),
+                          1.0 + g[other] / g[sphere]);
+    }
 }
 
 std::vector<double> shear_stiffness(const Bonds& bonds) {
@@ -108,20 +128,20 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
     std::vector<double> best = share_;
     single_ = share_;
     double lowest = 1e300;
+    const double mean_stiffness =
+        bonds.size() > 0 ? std::accumulate(bonds.stiffness.begin(), bonds.stiffness.end(), 0.0) / static_cast<double>(bonds.size()) : 1.0;
     std::vector<double> eigenvalue(s.size());
     for (int sweep = 0; sweep < 12; ++sweep) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (s.size() > 256)
         for (std::size_t k = 0; k < s.size(); ++k) {
             Block block;
-            add_pairs(s, bonds, k_t, k, share_, block);
-            if (bonds.moments) {
-                add_moments(s, bonds, law, k, share_, block);
-            }
+            add_bonds(s, bonds, k_t, law, k, share_, block);
             eigenvalue[k] = block.limit(s.mass[k], s.inertia[k], false).second;
         }
         const double largest = eigenvalue.empty() ? 0.0 : *std::max_element(eigenvalue.begin(), eigenvalue.end());
         for (std::size_t k = 0; k < s.size() && sweep == 0; ++k) {
-            single_[k] = std::sqrt(std::max(eigenvalue[k], 1e-12 * largest));
+            // A sphere without bonds has no frequency of its own yet: that of one mean bond.
+            single_[k] = std::sqrt(eigenvalue[k] > 0.0 ? eigenvalue[k] : mean_stiffness / s.mass[k]);
         }
         if (largest < lowest) {
             lowest = largest;
@@ -134,7 +154,8 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
     share_ = best;
 }
 
-double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens) const {
+double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
+                        double skin) const {
     const auto k_t = shear_stiffness(bonds);
     const auto law = laws_of(bonds);
     std::vector<std::vector<std::pair<std::size_t, std::size_t>>> walls(s.size()); // (platen, entry) of each sphere
@@ -144,19 +165,23 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
         }
     }
     double lowest = 1e300;
-#pragma omp parallel for schedule(static) reduction(min : lowest)
+#pragma omp parallel for schedule(static) reduction(min : lowest) if (s.size() > 256)
     for (std::size_t k = 0; k < s.size(); ++k) {
         Block block;
-        add_pairs(s, bonds, k_t, k, share_, block);
-        if (bonds.moments) {
-            add_moments(s, bonds, law, k, share_, block);
-        }
+        add_bonds(s, bonds, k_t, law, k, share_, block);
         if (contacts.size() > 0) {
-            add_pairs(s, contacts, contacts.shear_stiffness, k, single_, block);
+            add_pairs(
+                s, contacts,
+                [&](std::size_t p, double d) { return stiffness_at(contacts.law[p], contacts.contact_distance[p] - d + skin); },
+                [&](std::size_t p) { return contacts.law[p].rolling_arm > 0.0 ? contacts.law[p].reduced_inertia : 0.0; }, k, single_,
+                block);
         }
         for (const auto& [p, e] : walls[k]) {
             const auto& platen = platens[p];
-            block.add(Vec3(0, 0, -platen.inward), platen.stiffness[e], platen.shear_stiffness[e], 0.0, platen.contact_distance[e], 1.0);
+            const double distance = (s.position.z[k] - platen.position) * platen.inward;
+            block.add(Vec3(0, 0, -platen.inward), stiffness_at(platen.law[e], platen.contact_distance[e] - distance + skin),
+                      platen.contact_distance[e], 1.0);
+            block.rolling += platen.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
         }
         lowest = std::min(lowest, block.limit(s.mass[k], s.inertia[k], true).first);
     }

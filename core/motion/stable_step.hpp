@@ -14,14 +14,16 @@ namespace proveta {
 ///
 /// Each spring's energy is split between its two spheres by Young's inequality, (a + b)^2 <= (1 + g_j/g_i) a^2 + (1 + g_i/g_j) b^2,
 /// which leaves one 6 x 6 eigenvalue problem (translation and rotation, lever arms included) a sphere. Any positive g gives a bound; a
-/// few sweeps choose g so that the largest eigenvalue is small. All stiffnesses are the undamaged ones, which no later state exceeds.
+/// few sweeps choose g so that the largest eigenvalue is small. Rolling resistance takes its share of the 4, whatever the step. All
+/// stiffnesses are the undamaged ones, which no later state exceeds.
 class StepBound {
   public:
     StepBound(const Spheres& spheres, const Bonds& bonds);
 
-    /// The bound in s, with the pairs of the contact list and the platens taken as closed.
-    [[nodiscard]] double limit(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
-                               const std::vector<Platen>& platens) const;
+    /// The bound in s, with the pairs of the contact list and the platens taken as closed. skin: how much overlaps may still grow before
+    /// the next search, m; laws that stiffen with overlap count as stiff as they can get by then.
+    [[nodiscard]] double limit(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
+                               double skin = 0.0) const;
 
   private:
     std::vector<double> share_;  // g for bonds, tuned to their network

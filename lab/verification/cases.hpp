@@ -5,13 +5,27 @@
 
 namespace proveta::verification {
 
+// Chapter 2
+Case restitution();
+Case rolling_resistance();
+Case parabolic_flight();
+Case lsd_impact();
+Case hertz_impact();
+Case sphere_between_plates();
+Case damped_critical_step();
+Case cylinder_precession();
+
 // Chapter 5
 Case polygon_areas();
 Case dempack_bond();
 Case two_body_energy();
 Case weak_equals_none();
 Case bonded_cantilever();
+Case mesh_convergence();
+Case step_convergence();
+Case rate_convergence();
 Case hydrostatic_criterion();
+Case objectivity();
 Case released_law();
 
 } // namespace proveta::verification

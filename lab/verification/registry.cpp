@@ -6,13 +6,25 @@ namespace proveta::verification {
 const std::vector<Case>& cases() {
     // clang-format off
     static const std::vector<Case> all{
+        restitution(),
+        rolling_resistance(),
+        parabolic_flight(),
+        lsd_impact(),
+        hertz_impact(),
+        sphere_between_plates(),
+        damped_critical_step(),
+        cylinder_precession(),
         polygon_areas(),
         dempack_bond(),
         two_body_energy(),
         weak_equals_none(),
         bonded_cantilever(),
         released_law(),
+        mesh_convergence(),
+        step_convergence(),
+        rate_convergence(),
         hydrostatic_criterion(),
+        objectivity(),
     };
     // clang-format on
     return all;

@@ -50,6 +50,25 @@ TEST_CASE("all problems of a deck are reported at once, each with its path") {
     CHECK(card->suggestion == "did you mean \"concrete_sfer\"?");
 }
 
+TEST_CASE("loose contacts, schemes and damping: wrong words and bounds are named") {
+    const auto problems = problems_of(R"({"test": "ucs", "material": {"contact_law": "hertzian", "restitution_rule": "tsuji",
+        "rolling_friction": -0.1, "contact_restitution": 0}, "numerics": {"scheme": "verlet", "damping": "none", "damping_rotation": -1}})");
+    for (const char* path : {"/material/contact_law", "/material/restitution_rule", "/material/rolling_friction",
+                             "/material/contact_restitution", "/numerics/scheme", "/numerics/damping", "/numerics/damping_rotation"}) {
+        INFO(path);
+        CHECK(has(problems, path));
+    }
+    CHECK(problems.size() == 7);
+    CHECK(has(problems_of(R"({"test": "ucs", "numerics": {"damping_translation": 1.0}})"), "/numerics/damping_translation"));
+    CHECK(problems_of(R"({"test": "ucs", "numerics": {"damping": "viscous", "damping_translation": 1000}})").empty());
+    const Deck deck =
+        read_deck(Json::parse(R"({"test": "ucs", "material": {"contact_law": "hertz", "rolling_friction": 0.1}})"), "deck.json");
+    const Material m = to_material(deck.material.values);
+    CHECK(m.contact_law == ContactLaw::hertz);
+    CHECK(m.restitution_rule == RestitutionRule::corrected);
+    CHECK(m.rolling_friction == 0.1);
+}
+
 TEST_CASE("impossible recipes are refused before any sphere is made") {
     CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"spheres": 1}})"), "/specimen/spheres"));
     CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"spheres": 1000000000}})"), "/specimen/spheres"));

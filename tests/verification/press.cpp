@@ -119,7 +119,7 @@ TEST_CASE("objectivity: the neighbour lists' skin changes speed, not results, wh
     for (const char* skin : {"0.02", "0.5"}) {
         const Deck deck =
             small_deck(500, std::string(R"({"loading": {"rate": "0.2 m/s", "stop": {"axial_strain": 0.0002}}, "numerics": {"skin": )") +
-                                skin + R"(, "time_step": "200 ns"}})");
+                                skin + R"(, "time_step": "150 ns"}})");
         Bench bench = set_up(deck, make_specimen(deck.specimen));
         test_of(deck, bench);
         bench.model->contacts = {};

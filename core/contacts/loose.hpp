@@ -1,0 +1,70 @@
+// One loose contact, whichever law it follows: its constants from two materials, one step of it, and how stiff it may become.
+#pragma once
+
+#include "core/bonds/material.hpp"
+#include "core/contacts/hertz_law.hpp"
+#include "core/contacts/linear_law.hpp"
+
+namespace proveta {
+
+/// What a contact of two materials needs, whatever the sizes of the spheres. Worked out once a pair of materials.
+struct LoosePair {
+    ContactLaw law = ContactLaw::linear;
+    bool tension = false;
+    AreaRule area_rule = AreaRule::virtual_polyhedron;
+    double axial = 0.0;       ///< a E of the linear law, Pa
+    double shear_ratio = 0.0; ///< k_t / k_n of the linear law
+    double young = 0.0;       ///< E* of the Hertzian law (2.40c), Pa
+    double shear = 0.0;       ///< G* of the Hertzian law (2.40d), Pa
+    double damping = 0.0;     ///< xi
+    double friction = 0.0;    ///< mu
+    double rolling = 0.0;     ///< eta_r
+};
+
+/// Constants of one contact. Stiffnesses in N/m and dashpots in N s/m for the linear law; for the Hertzian one those at an overlap of one
+/// metre, N/m^(3/2) and N s/m^(5/4).
+struct LooseContact {
+    ContactLaw law = ContactLaw::linear;
+    bool tension = false;
+    double k_n = 0.0, k_t = 0.0;
+    double c_n = 0.0, c_t = 0.0;
+    double friction = 0.0;
+    double rolling_arm = 0.0;     ///< eta_r R_r, m
+    double reduced_inertia = 0.0; ///< of the relative spin, kg m2
+};
+
+/// Spheres of materials a and b, symmetric in both.
+LoosePair loose_pair(const Material& a, const Material& b);
+
+/// A sphere's material against a wall's. The friction is that of this pair of surfaces; the wall moves sideways much less than the sphere,
+/// so its shear modulus counts as infinite (2.41d). A wall of infinite Young's modulus is rigid.
+LoosePair wall_pair(const Material& sphere, const Material& wall, double friction);
+
+/// What a contact needs to know of a sphere: m, kg, kg m2.
+struct LooseBody {
+    double radius, mass, inertia;
+};
+
+/// Contact of two spheres; area in m2 is that of the linear law, over the distance at touch.
+LooseContact loose_contact(const LoosePair& pair, const LooseBody& i, const LooseBody& j, double area);
+
+/// Contact of a sphere of the given section, m2, with a wall (2.41). The linear law sees the wall as a mirror image made of the wall's
+/// material.
+LooseContact wall_contact(const LoosePair& pair, const LooseBody& sphere, double section);
+
+/// One step; see `linear::advance`.
+inline contact::Response<double> advance(const LooseContact& c, double overlap, double approach, double dt, const double (&slip)[3],
+                                         contact::State<double>& state) {
+    if (c.law == ContactLaw::hertz) {
+        return hertz::advance<double>({c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.tension}, overlap, approach, dt, slip, state);
+    }
+    return linear::advance<double>({c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.tension}, overlap, approach, dt, slip, state);
+}
+
+/// Tangent stiffnesses (N/m) and dashpots (N s/m), which grow with the overlap, at an overlap in m.
+struct Stiffness {
+    double k_n, k_t, c_n, c_t;
+};
+Stiffness stiffness_at(const LooseContact& c, double overlap);
+
+} // namespace proveta
