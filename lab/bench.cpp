@@ -17,6 +17,7 @@ Spheres make_spheres(const Specimen& specimen, const Deck& deck, std::vector<Mat
         materials.push_back(to_material(region.material.values));
     }
     Spheres s;
+    s.planar = specimen.shape.planar();
     for (const auto k : hilbert_order(specimen.spheres.centre)) {
         const Vec3 at = specimen.spheres.centre.at(k);
         int material = 0;
@@ -74,9 +75,11 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     const bool automatic = deck.bonding.interaction_range.word == "auto";
     std::vector<Pair> pairs;
     try {
-        pairs = bonded_pairs(spheres, {deck.bonding.interaction_range.number, automatic ? deck.bonding.coordination : 0.0}, bench.beta);
+        pairs = bonded_pairs(spheres,
+                             {deck.bonding.interaction_range.number, automatic ? coordination_of(deck.bonding, bench.specimen.shape) : 0.0},
+                             bench.beta);
     } catch (const std::runtime_error& e) {
-        fail("/bonding/coordination", fmt::format("{:.4g}; {}", deck.bonding.coordination, e.what()),
+        fail("/bonding/coordination", fmt::format("{:.4g}; {}", coordination_of(deck.bonding, bench.specimen.shape), e.what()),
              "a coordination that the packing can have",
              fmt::format("the specimen has {} spheres with {:.3g} touching neighbours each", spheres.size(), bench.statistics.touching));
     }

@@ -79,14 +79,9 @@ report::TextTable ledger_table(const report::Table& energy) {
 
 report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
     const auto& s = bench.statistics;
-    const auto& shape = bench.specimen.shape;
-    const std::string size =
-        shape.kind == ShapeKind::cylinder
-            ? fmt::format("cylinder {:.4g} x {:.4g} mm", 1e3 * shape.diameter, 1e3 * shape.height)
-            : fmt::format("prism {:.4g} x {:.4g} x {:.4g} mm", 1e3 * shape.width, 1e3 * shape.depth, 1e3 * shape.height);
     return {"Specimen and material",
             {{"Quantity", "Value"},
-             {"Shape", size},
+             {"Shape", bench.specimen.shape.text()},
              {"Spheres", fmt::format("{}, mean radius {:.3f} mm, relative deviation {:.1f} %", s.spheres, 1e3 * s.mean_radius,
                                      100 * s.relative_deviation)},
              {"Porosity", fmt::format("{:.2f} % (overlaps counted twice)", 100 * s.porosity)},

@@ -8,7 +8,8 @@
 namespace proveta {
 
 /// Rule that gives the effective area of a bond (model: effective areas; thesis 5.1.3, 5.3).
-enum class AreaRule { minimum_radius, truncated_cone, virtual_polyhedron };
+/// laguerre areas are not computed here: `make_bonds` is given them.
+enum class AreaRule { minimum_radius, truncated_cone, virtual_polyhedron, laguerre };
 
 /// Rules that turn the material of a card into bonds, contacts and masses. SI units.
 struct Material {

@@ -1,7 +1,6 @@
 #include "core/boundaries/platen.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/contacts/linear_law.hpp"
 
@@ -19,7 +18,7 @@ Platen make_platen(const Spheres& spheres, double position, double inward, doubl
         const double r = spheres.radius[s];
         if (distance <= (1.0 + capping) * r) {
             p.capped[s] = distance;
-            discs += std::numbers::pi * r * r;
+            discs += spheres.section(s);
         }
     }
     p.area_weight = discs > 0.0 ? end_area / discs : 1.0;
@@ -44,7 +43,7 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
         const auto id = static_cast<std::int32_t>(s);
         p.sphere.push_back(id);
         p.contact_distance.push_back(touch);
-        p.stiffness.push_back(m.normal_factor * m.young_modulus * p.area_weight * std::numbers::pi * r);
+        p.stiffness.push_back(m.normal_factor * m.young_modulus * p.area_weight * spheres.section(s) / r);
         p.shear_stiffness.push_back(bond_law(m).shear_ratio * p.stiffness.back());
         while (before < old.sphere.size() && old.sphere[before] < id) {
             ++before;

@@ -30,7 +30,7 @@ struct Platen {
     std::vector<double> stiffness, shear_stiffness; ///< N/m
     std::vector<double> slip_x, slip_y;             ///< elastic tangential displacement, m
     std::vector<double> capped;                     ///< per sphere of the specimen: contact distance from the start, m; 0: none
-    double area_weight = 1.0;                       ///< contact area over pi R^2
+    double area_weight = 1.0;                       ///< contact area over the sphere's section
     Vec3 reaction = Vec3::Zero();                   ///< force of the specimen on the platen, N
     int touching = 0;
 

@@ -58,7 +58,7 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::
         c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), touch);
         const Material m =
             equivalent(materials[static_cast<std::size_t>(spheres.material[i])], materials[static_cast<std::size_t>(spheres.material[j])]);
-        const double area = contact_area(m.area_rule, spheres.radius[i], spheres.radius[j], weight[i], weight[j]);
+        const double area = contact_area(m.area_rule, spheres, i, j, weight[i], weight[j]);
         c.stiffness[k] = m.normal_factor * m.young_modulus * area / touch;
         c.shear_stiffness[k] = bond_law(m).shear_ratio * c.stiffness[k];
         const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
