@@ -49,6 +49,25 @@ std::uint64_t hash_of(const Specimen& specimen) {
     return hash.value();
 }
 
+namespace {
+
+// What the cards leave to the specimen: global factors on areas, and areas that come from its tessellation.
+void choose_areas(const Deck& deck, const Spheres& spheres, const std::vector<Pair>& pairs, std::vector<Material>& materials,
+                  Bench& bench) {
+    for (std::size_t k = 0; k < materials.size(); ++k) {
+        const Card& card = k == 0 ? deck.material.values : deck.regions[k - 1].material.values;
+        if (card.area_factor.word == "auto") {
+            bench.area_factor = 40.0 * bench.statistics.porosity / bench.coordination;
+            materials[k].area_factor = *bench.area_factor;
+        }
+        if (materials[k].area_rule == AreaRule::laguerre && !bench.laguerre) {
+            bench.laguerre = laguerre_areas(bench.specimen.shape, spheres, pairs);
+        }
+    }
+}
+
+} // namespace
+
 Bench set_up(const Deck& deck, Specimen specimen) {
     Bench bench;
     bench.specimen = std::move(specimen);
@@ -88,7 +107,13 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     }
     bench.coordination = 2.0 * static_cast<double>(pairs.size()) / static_cast<double>(spheres.size());
     std::vector<double> weight;
-    Bonds bonds = make_bonds(spheres, materials, pairs, bench.skin, weight);
+    choose_areas(deck, spheres, pairs, materials, bench);
+    Bonds bonds = make_bonds(spheres, materials, pairs, bench.skin, weight, bench.laguerre ? &bench.laguerre->areas : nullptr);
+    if (bonds.size() == 0) {
+        fail("/material/area_rule", "no bond with an area", "a rule that gives the bonds areas");
+    }
+    bench.dropped = pairs.size() - bonds.size();
+    bench.coordination = 2.0 * static_cast<double>(bonds.size()) / static_cast<double>(spheres.size());
     bench.partition = partition(bench.specimen.shape, spheres, bonds);
     bench.wave_speed = std::sqrt(materials.front().normal_factor * materials.front().young_modulus / materials.front().density);
 
