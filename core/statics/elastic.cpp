@@ -66,8 +66,9 @@ class Network {
         return d;
     }
 
-    // K q, and the energy.
-    [[nodiscard]] Vec forces(const Vec& q, double& energy) const {
+    // K q, the energy, and each bond's force on its sphere i.
+    [[nodiscard]] Vec forces(const Vec& q, double& energy, VectorField& bond) const {
+        bond.resize(b_.size());
         Vec f = Vec::Zero(q.size());
         energy = 0.0;
         for (std::size_t k = 0; k < b_.size(); ++k) {
@@ -76,6 +77,7 @@ class Network {
             const Vec3 force = e.stiffness * stretch;
             f.segment<6>(at(b_.j[k])) += e.of_j.transpose() * force;
             f.segment<6>(at(b_.i[k])) -= e.of_i.transpose() * force;
+            bond.set(k, force);
             energy += 0.5 * stretch.dot(force);
         }
         return f;
@@ -137,13 +139,15 @@ class Network {
 };
 
 Vec solve_directly(const RowMatrix& k, const Vec& load) {
-    const Eigen::SimplicialLDLT<ColMatrix, Eigen::Lower> factors{ColMatrix(k)};
-    const auto& pivots = factors.vectorD();
-    if (factors.info() != Eigen::Success || pivots.minCoeff() <= 1e-13 * pivots.maxCoeff()) {
+    // Unit diagonal first: translations and rotations have different units, and a pivot must tell a mechanism in either.
+    const Vec scale = k.diagonal().cwiseSqrt().cwiseInverse();
+    const ColMatrix scaled = scale.asDiagonal() * ColMatrix(k) * scale.asDiagonal();
+    const Eigen::SimplicialLDLT<ColMatrix, Eigen::Lower> factors{scaled};
+    if (factors.info() != Eigen::Success || factors.vectorD().minCoeff() <= 1e-12) {
         throw NotSolvable("the network is a mechanism, or is not held against rigid motion");
     }
-    Vec x = factors.solve(load);
-    x += factors.solve(load - k * x);
+    Vec x = scale.cwiseProduct(factors.solve(scale.cwiseProduct(load)));
+    x += scale.cwiseProduct(factors.solve(scale.cwiseProduct(load - k * x)));
     return x;
 }
 
@@ -200,7 +204,7 @@ ElasticSolution solve_elastic(const Spheres& spheres, const Bonds& bonds, const 
     }
     ElasticSolution out;
     Vec load(unknowns);
-    const Vec from_supports = network.forces(q, out.energy);
+    const Vec from_supports = network.forces(q, out.energy, out.bond);
     for (Index k = 0; k < n; ++k) {
         if (number[static_cast<std::size_t>(k)] >= 0) {
             load[number[static_cast<std::size_t>(k)]] = -from_supports[k];
@@ -217,7 +221,7 @@ ElasticSolution solve_elastic(const Spheres& spheres, const Bonds& bonds, const 
             }
         }
     }
-    const Vec f = network.forces(q, out.energy);
+    const Vec f = network.forces(q, out.energy, out.bond);
     out.displacement = part(q, 0);
     out.rotation = part(q, 3);
     out.force = part(f, 0);

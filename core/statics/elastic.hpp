@@ -32,6 +32,7 @@ struct ElasticSolution {
     VectorField rotation;     ///< rad
     VectorField force;        ///< that holds the sphere where it is prescribed, N; round-off elsewhere
     VectorField moment;       ///< N m
+    VectorField bond;         ///< force of each bond on its sphere i, N
     double energy = 0.0;      ///< in the bonds, J
     int iterations = 0;       ///< 0: solved directly
 };

@@ -6,6 +6,10 @@
 namespace proveta::verification {
 
 // Chapter 5
+Case regular_lattice();
 Case polygon_areas();
+Case area_models();
+Case area_partition();
+Case elastic_study();
 
 } // namespace proveta::verification

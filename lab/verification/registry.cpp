@@ -5,7 +5,7 @@ namespace proveta::verification {
 
 const std::vector<Case>& cases() {
     static const std::vector<Case> all{
-        polygon_areas(),
+        regular_lattice(), polygon_areas(), area_models(), area_partition(), elastic_study(),
     };
     return all;
 }
