@@ -44,13 +44,15 @@ MacroElasticity press_elastically(const Shape& shape, const Spheres& spheres, co
     for (const auto k : lower) {
         force += solution.force.z[k];
     }
-    // Least squares: u = a + G x.
+    // Least squares: u = a + G x, over the spheres that their bonds can hold without shear; others may swing.
+    const std::uint32_t enough = spheres.planar ? 3 : 4;
     const Shape::Region gauge = shape.inner(0.8, 0.6);
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
     for (std::size_t k = 0; k < spheres.size(); ++k) {
         const Vec3 p = spheres.position.at(k);
-        if (gauge.contains(p)) {
+        const auto held_by = bonds.incidence.offset[k + 1] - bonds.incidence.offset[k];
+        if (held_by >= enough && gauge.contains(p)) {
             const Eigen::Vector4d row(1.0, p.x(), p.y(), p.z() - 0.5 * shape.height);
             normal += row * row.transpose();
             right += row * solution.displacement.at(k).transpose();
