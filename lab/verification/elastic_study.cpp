@@ -141,9 +141,9 @@ Case elastic_study() {
                              "tends to 1"});
                 c.push_back({s.name + ": E/E0 at alpha 1, beta 100", 1.0, s.locked.young_modulus / young, 0.0, Compare::reported});
             }
-            c.push_back({"2: E/alpha over that of alpha 1, less 1, tied k_t", 0.0, linear[0], 1e-6, Compare::absolute, "", "linear"});
+            c.push_back({"2: E/alpha over that of alpha 1, less 1, tied k_t", 0.0, linear[0], 1e-9, Compare::absolute, "", "linear"});
             c.push_back({"2: the same with k_t of (5.37)", 0.0, linear[1], 0.0, Compare::reported, "", "linear"});
-            c.push_back({"3: change of nu with alpha, tied k_t", 0.0, nu_moves[0], 1e-5, Compare::absolute, "", "none"});
+            c.push_back({"3: change of nu with alpha, tied k_t", 0.0, nu_moves[0], 1e-9, Compare::absolute, "", "none"});
             c.push_back({"3: the same with k_t of (5.37)", 0.0, nu_moves[1], 0.0, Compare::reported, "", "none"});
             for (const auto& s : studies) {
                 if (s.alpha_needed > 0.0) {
