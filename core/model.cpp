@@ -5,6 +5,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "core/averaged_stress.hpp"
 #include "core/hash.hpp"
 
 namespace proveta {
@@ -32,6 +33,10 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
         std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / std::max<double>(1.0, static_cast<double>(spheres.size()));
     skin_ = numerics_.skin * mean_radius;
     reactions_.assign(platens.size(), Vec3::Zero());
+    averaged_ = std::any_of(bonds.laws.begin(), bonds.laws.end(), [](const BondLaw& law) { return law.criterion != Criterion::bond; });
+    if (averaged_) {
+        volume_ = tributary_volumes(spheres, bonds);
+    }
     travel_ = 2.0 * skin_; // makes the first search happen
     search();
     dt_ = numerics_.safety * stable_;
@@ -111,8 +116,41 @@ void Model::forces(bool measure) {
         ledger_.platens -= 0.5 * (platen.reaction.z() + reactions_[p].z()) * platen.velocity * dt_;
         reactions_[p] = platen.reaction;
     }
+    for (auto& pressure : pressures) {
+        ledger_.pressure += pressure_forces(spheres, pressure, dt_);
+    }
+    if (averaged_) {
+        fail_by_averaged_stress(measure);
+    }
     if (measure) {
         ledger_.elastic = std::accumulate(bonds.stored.begin(), bonds.stored.end(), stored);
+    }
+}
+
+// Bonds whose spheres' averaged stress has passed their criterion fail now, in bond order.
+void Model::fail_by_averaged_stress(bool measure) {
+    averaged_criteria(bonds, sphere_stresses(spheres, bonds, contacts, platens, pressures, volume_), averaged_value_, shear_governs_);
+    for (const auto& block : bonds.blocks) {
+        if (bonds.laws[block.law].criterion == Criterion::bond) {
+            continue;
+        }
+        for (std::uint32_t b = block.begin; b < block.end; ++b) {
+            const bool fails = bonds.mode[b] == 0 && averaged_value_[b] >= 1.0;
+            if (fails) {
+                const auto mode = shear_governs_[b] ? FailureMode::shear : FailureMode::tension;
+                ledger_.damage += fail_bond(spheres, bonds, b, mode, dt_);
+                failures_.push_back({b, mode});
+                ++broken_;
+            }
+            if (measure) {
+                bonds.criterion[b] = std::min(averaged_value_[b], 1.0);
+                if (fails) {
+                    bonds.stored[b] = std::max(bonds.normal[b], 0.0) * std::max(bonds.normal[b], 0.0) / (2.0 * bonds.stiffness[b]);
+                    bonds.normal[b] = std::max(bonds.normal[b], 0.0);
+                    bonds.shear[b] = 0.0;
+                }
+            }
+        }
     }
 }
 

@@ -10,6 +10,7 @@
 #include "core/bonds/bond_forces.hpp"
 #include "core/bonds/bonds.hpp"
 #include "core/boundaries/platen.hpp"
+#include "core/boundaries/pressure.hpp"
 #include "core/contacts/contacts.hpp"
 #include "core/energy/ledger.hpp"
 #include "core/motion/motion.hpp"
@@ -79,10 +80,12 @@ class Model {
     Bonds bonds;
     Contacts contacts;
     std::vector<Platen> platens;
+    std::vector<Pressure> pressures; ///< set their values between steps
 
   private:
     void search();
     void forces(bool measure);
+    void fail_by_averaged_stress(bool measure);
     void motion(const std::vector<double>& speeds, bool measure);
     void check() const;
 
@@ -103,6 +106,10 @@ class Model {
     double fastest_ = 0.0;
     Ledger ledger_;
     StepMeasures measures_;
+    bool averaged_ = false;      // some bonds fail by an averaged criterion
+    std::vector<double> volume_; // tributary volumes, for such criteria
+    std::vector<double> averaged_value_;
+    std::vector<std::uint8_t> shear_governs_;
     std::vector<BondFailure> failures_;
     std::vector<Vec3> reactions_; // of the platens at the last forces, for the trapezoidal work
 };
@@ -123,6 +130,9 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("bond_damage_t", bonds.damage_t);
     visit("bond_damage_work", bonds.damage_work);
     visit("bond_mode", bonds.mode);
+    if (bonds.moments) {
+        field("bond_rotation", bonds.rotation);
+    }
     visit("contact_i", contacts.i);
     visit("contact_j", contacts.j);
     visit("contact_distance", contacts.contact_distance);
@@ -147,6 +157,10 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit(name + "reaction_y", reactions_[p].y());
         visit(name + "reaction_z", reactions_[p].z());
     }
+    for (std::size_t p = 0; p < pressures.size(); ++p) {
+        visit("pressure_" + std::to_string(p), pressures[p].value);
+        field("pressure_" + std::to_string(p) + "_force", pressures[p].force);
+    }
     visit("travel", travel_);
     visit("dt", dt_);
     visit("first_dt", first_dt_);
@@ -156,6 +170,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("searches", searches_);
     visit("fastest", fastest_);
     for (auto [name, value] : {std::pair{"platens", &ledger_.platens},
+                               {"pressure", &ledger_.pressure},
                                {"elastic", &ledger_.elastic},
                                {"kinetic", &ledger_.kinetic},
                                {"damage", &ledger_.damage},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/geometry/hilbert.hpp"
 #include "core/hash.hpp"
@@ -66,6 +67,41 @@ void choose_areas(const Deck& deck, const Spheres& spheres, const std::vector<Pa
     }
 }
 
+// A bond whose elastic energy at the limit exceeds its fracture energy would soften backwards in displacement.
+void refuse_snap_back(const Bonds& bonds, const Deck& deck) {
+    struct Worst {
+        double length = 0.0;
+        double allowed = 0.0;
+    } tension, shear;
+    const auto look = [](Worst& worst, double length, double limit, double end) {
+        if (end > 0.0 && limit > end && length > worst.length) {
+            worst = {length, length * end / limit};
+        }
+    };
+    for (const auto& block : bonds.blocks) {
+        const BondLaw& law = bonds.laws[block.law];
+        for (auto b = block.begin; b < block.end; ++b) {
+            look(tension, bonds.length[b], law.sigma_f * bonds.area[b] / bonds.stiffness[b], law.opening_f);
+            look(shear, bonds.length[b], law.tau_f * bonds.area[b] / (law.shear_ratio * bonds.stiffness[b]), law.slip_f);
+        }
+    }
+    input::Problems problems;
+    for (const auto& [worst, key, what] :
+         {std::tuple{tension, "fracture_energy_tension", "2 E G_f / sigma_f^2"}, {shear, "fracture_energy_shear", "2 G G_s / tau_f^2"}}) {
+        if (worst.length > 0.0) {
+            problems.push_back(
+                {deck.source, std::string("/material/") + key,
+                 fmt::format("too small for bonds {} long, which would snap back",
+                             input::format_quantity(worst.length, input::Unit::length)),
+                 fmt::format("bonds of at most {}, which is {}", input::format_quantity(worst.allowed, input::Unit::length), what),
+                 "more spheres make shorter bonds; or give more fracture energy or less strength"});
+        }
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+}
+
 } // namespace
 
 Bench set_up(const Deck& deck, Specimen specimen) {
@@ -114,6 +150,7 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     }
     bench.dropped = pairs.size() - bonds.size();
     bench.coordination = 2.0 * static_cast<double>(bonds.size()) / static_cast<double>(spheres.size());
+    refuse_snap_back(bonds, deck);
     bench.partition = partition(bench.specimen.shape, spheres, bonds);
     bench.wave_speed = std::sqrt(materials.front().normal_factor * materials.front().young_modulus / materials.front().density);
 

@@ -19,6 +19,16 @@ void declare(input::Visitor& v, Card& c) {
     v.text("about", c.about, "what it stands for");
     v.text("source", c.source, "where its numbers come from");
     v.text("status", c.status, "measured, published, provisional or user");
+    v.choice("law", c.law,
+             {{"dempack", "the thesis's bond: elasto-damage, elasto-plastic compression, friction after failure (5.2)"},
+              {"dempack_released", "the bond as the released DEMpack code computes it; for comparison with it"}},
+             "constitutive law of the bonds");
+    v.choice(
+        "criterion", c.criterion,
+        {{"bond", "each bond's own normal and shear force (5.20-5.26)"},
+         {"mohr_coulomb", "averaged stress of its two spheres: c = tau_f, tan phi = mu_s, cut off at sigma_f; at once, without softening"},
+         {"rankine", "averaged stress of its two spheres: largest tension sigma_f; at once, without softening"}},
+        "what decides that a bond fails");
     v.choice("area_rule", c.area_rule,
              {{"virtual_polyhedron", "weighted areas that partition space, thesis 5.3"},
               {"truncated_cone", "pi R_i R_j, (5.33)"},
@@ -42,8 +52,21 @@ void declare(input::Visitor& v, Card& c) {
     v.number("softening_tension", c.softening_tension, Unit::none, between(1e-6, 1e6),
              "length of the softening branch in tension over the limit displacement, u_f/u_l - 1 (5.24)");
     v.number("softening_shear", c.softening_shear, Unit::none, between(1e-6, 1e6), "the same in shear (5.24)");
+    v.number(
+        "fracture_energy_tension", c.fracture_energy_tension, Unit::energy_per_area, at_least(0),
+        "fracture energy G_f of a bond in tension: straight softening to u_f = 2 G_f / sigma_f in place of softening_tension; 0: not used");
+    v.number("fracture_energy_shear", c.fracture_energy_shear, Unit::energy_per_area, at_least(0),
+             "the same in shear, G_s, without normal force; in place of softening_shear");
     v.numbers("lcs", c.lcs, 3, Unit::pressure, above(0), "compressive stresses LCS1 to LCS3 where the envelope changes slope (5.28)");
     v.numbers("yrc", c.yrc, 3, Unit::none, at_least(1), "ratios YRC1 to YRC3 of the initial slope to the slope beyond each LCS (5.28)");
+    v.number("yield_stress", c.yield_stress, Unit::pressure, at_least(0), "law dempack_released: beyond it unloading is straight");
+    v.number("plastic_modulus_ratio", c.plastic_modulus_ratio, Unit::none, between(0, 1),
+             "law dempack_released: E_p / E, slope of that unloading over the initial one");
+    v.number("shear_energy", c.shear_energy, Unit::none, at_least(0),
+             "law dempack_released: slip to failure past the shear limit over the displacement at the limit; 0: at once");
+    v.number("bending_factor", c.bending_factor, Unit::none, between(0, 100),
+             "bending stiffness of a bond over E I / d0 of the round beam of its area; 0: none, as in the thesis");
+    v.number("twisting_factor", c.twisting_factor, Unit::none, between(0, 100), "the same for twisting, over G J / d0");
     v.number("local_damping", c.local_damping, Unit::none, between(0, 1),
              "fraction of critical damping in each bond's normal direction (5.15)");
     v.number("contact_restitution", c.contact_restitution, Unit::none, {0.0, 1.0, true, false},
@@ -69,6 +92,17 @@ Material to_material(const Card& c) {
     m.bond.tau_f = c.strength_factor * c.tau_f;
     m.bond.mu_s = c.mu_s;
     m.bond.mu_d = c.mu_d;
+    m.bond.kind = c.law == "dempack_released" ? LawKind::released : LawKind::dempack;
+    m.bond.criterion = c.criterion == "mohr_coulomb" ? Criterion::mohr_coulomb
+                       : c.criterion == "rankine"    ? Criterion::rankine
+                                                     : Criterion::bond;
+    m.bond.yield_stress = c.strength_factor * c.yield_stress;
+    m.bond.plastic_ratio = c.plastic_modulus_ratio;
+    m.bond.shear_energy = c.shear_energy;
+    m.bond.bending = c.bending_factor;
+    m.bond.twisting = c.twisting_factor;
+    m.fracture_energy_n = c.fracture_energy_tension;
+    m.fracture_energy_t = c.fracture_energy_shear;
     m.bond.softening_n = c.softening_tension;
     m.bond.softening_t = c.softening_shear;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -90,6 +124,21 @@ void check_card(const Card& c, const std::string& source, const std::string& pat
                                 "three ascending stresses", "the envelope has its corners in this order"});
         }
     }
+    const auto only_thesis = [&](bool used, const char* key, const std::string& found) {
+        if (used && c.law != "dempack") {
+            problems.push_back(
+                {source, path + "/" + key, found, "left out with law \"dempack_released\"", "the released code has no such thing"});
+        }
+    };
+    only_thesis(c.criterion != "bond", "criterion", "\"" + c.criterion + "\"");
+    only_thesis(c.fracture_energy_tension > 0.0, "fracture_energy_tension", fmt::format("{:.4g} J/m2", c.fracture_energy_tension));
+    only_thesis(c.fracture_energy_shear > 0.0, "fracture_energy_shear", fmt::format("{:.4g} J/m2", c.fracture_energy_shear));
+    only_thesis(c.bending_factor > 0.0, "bending_factor", fmt::format("{}", c.bending_factor));
+    if (c.criterion != "bond" && (c.fracture_energy_tension > 0.0 || c.fracture_energy_shear > 0.0)) {
+        problems.push_back({source, path + "/criterion", "\"" + c.criterion + "\" together with a fracture energy", "one of the two",
+                            "an averaged criterion fails bonds at once"});
+    }
+    only_thesis(c.twisting_factor > 0.0, "twisting_factor", fmt::format("{}", c.twisting_factor));
 }
 
 std::vector<std::string> card_names() {

@@ -15,6 +15,8 @@ struct Card {
     std::string about;
     std::string source;
     std::string status = "user";
+    std::string law = "dempack";
+    std::string criterion = "bond";
     std::string area_rule = "virtual_polyhedron";
     input::NumberOrWord area_factor{1.0, ""};
     double density = 2500.0;
@@ -29,8 +31,15 @@ struct Card {
     double mu_d = 0.25;
     double softening_tension = 0.2;
     double softening_shear = 0.2;
+    double fracture_energy_tension = 0.0;
+    double fracture_energy_shear = 0.0;
     std::vector<double> lcs{20.0e6, 45.0e6, 70.0e6};
     std::vector<double> yrc{3.0, 12.0, 22.0};
+    double yield_stress = 20.0e6;
+    double plastic_modulus_ratio = 1.0;
+    double shear_energy = 1.0;
+    double bending_factor = 0.0;
+    double twisting_factor = 0.0;
     double local_damping = 0.0;
     double contact_restitution = 0.2;
 };

@@ -7,10 +7,70 @@ namespace proveta {
 
 namespace {
 
+// The laws under one name, for the loop.
+struct Dempack {
+    template <class... Args> static auto advance(Args&&... args) { return dempack::advance(args...); }
+    template <class... Args> static auto stored_energy(Args&&... args) { return dempack::stored_energy(args...); }
+    template <class... Args> static auto failure_criterion(Args&&... args) { return dempack::failure_criterion(args...); }
+};
+struct Released {
+    template <class... Args> static auto advance(Args&&... args) { return released::advance(args...); }
+    template <class... Args> static auto stored_energy(Args&&... args) { return released::stored_energy(args...); }
+    template <class... Args> static auto failure_criterion(Args&&... args) { return released::failure_criterion(args...); }
+};
+
+// Bending and twisting of the group at b; stays: share of the stiffness that damage has left, before and after the step. Returns the stored
+// energy; what damage takes of it goes to `lost`.
+template <class T>
+inline T bond_moments(const BondView& bonds, const BondLaw& law, std::size_t b, const PairKinematics<T>& pair, const T& k_n, const T& area,
+                      const T& stayed, const T& stays, T& lost) {
+    T theta[3];
+    T axis[3]; // rotation of the bond's frame in the step: n x change of n, and the spin about n
+    T old[3];
+    T next[3];
+    for (int c = 0; c < 3; ++c) {
+        const int p = (c + 1) % 3;
+        const int q = (c + 2) % 3;
+        theta[c] = load<T>(&bonds.rotation[c][b]);
+        axis[c] = pair.n[p] * pair.turn[q] - pair.n[q] * pair.turn[p] + pair.twist * pair.n[c];
+    }
+    T first[3];
+    for (int c = 0; c < 3; ++c) {
+        first[c] = axis[(c + 1) % 3] * theta[(c + 2) % 3] - axis[(c + 2) % 3] * theta[(c + 1) % 3];
+    }
+    for (int c = 0; c < 3; ++c) {
+        const T second = axis[(c + 1) % 3] * first[(c + 2) % 3] - axis[(c + 2) % 3] * first[(c + 1) % 3];
+        old[c] = theta[c] + first[c] + 0.5 * second;
+        next[c] = select(stays > T(0.0), old[c] + pair.rolled[c], T(0.0));
+    }
+    const T bend = law.bending_stiffness(k_n, area);
+    const T twist = law.twisting_stiffness(k_n, area);
+    const T old_n = old[0] * pair.n[0] + old[1] * pair.n[1] + old[2] * pair.n[2];
+    const T next_n = next[0] * pair.n[0] + next[1] * pair.n[1] + next[2] * pair.n[2];
+    T stored = T(0.0);
+    T crossed = T(0.0); // energy product of before and after, as for the springs
+    for (int c = 0; c < 3; ++c) {
+        const T moment = bend * (next[c] - next_n * pair.n[c]) + twist * next_n * pair.n[c];
+        const T kept = old[c] + pair.rolled[c];
+        const T before = bend * (old[c] - old_n * pair.n[c]) + twist * old_n * pair.n[c];
+        stored = stored + 0.5 * stays * moment * next[c];
+        crossed = crossed + 0.5 * before * kept;
+        store(&bonds.rotation[c][b], next[c]);
+        store(&bonds.couple[c][b], stays * moment);
+    }
+    lost = crossed * (stayed - stays);
+    return stored;
+}
+
+// Share of the stiffness against moments that damage has left.
+template <class T> inline T intact(const T& d_n, const T& d_t) {
+    using std::max;
+    return T(1.0) - max(d_n, d_t);
+}
+
 // One group of lane_count<T>() bonds starting at b.
-template <class T, bool damped, bool measure>
-inline void bond_group(const SphereView& s, const BondView& bonds, const dempack::Parameters& law, std::size_t b, double dt,
-                       BlockResult& out) {
+template <class Law, class T, bool damped, bool moments, bool measure>
+inline void bond_group(const SphereView& s, const BondView& bonds, const BondLaw& law, std::size_t b, double dt, BlockResult& out) {
     using std::sqrt;
     const T u[3] = {load<T>(&bonds.slip[0][b]), load<T>(&bonds.slip[1][b]), load<T>(&bonds.slip[2][b])};
     const auto pair = pair_kinematics(s, &bonds.i[b], &bonds.j[b], load_shares<T>(&bonds.forces[b]), u, dt);
@@ -31,7 +91,7 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const dempack
 
     const T k_n = load<T>(&bonds.stiffness[b]);
     const T area = load<T>(&bonds.area[b]);
-    const auto r = dempack::advance(law, k_n, area, kin, state);
+    auto r = Law::advance(law, k_n, area, kin, state);
 
     T normal = r.normal;
     const auto broken = (state.d_n >= T(1.0)) || (state.d_t >= T(1.0));
@@ -45,6 +105,13 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const dempack
         for (std::size_t k = 0; k < lane_count<T>(); ++k) {
             out.dissipation.dashpot += in_lane(lost, k);
         }
+    }
+
+    T in_moments = T(0.0);
+    if constexpr (moments) {
+        T lost;
+        in_moments = bond_moments(bonds, law, b, pair, k_n, area, intact(d_n_old, d_t_old), intact(state.d_n, state.d_t), lost);
+        r.damage_work = r.damage_work + lost;
     }
 
     store_pair_forces(&bonds.forces[b], pair, normal, r.shear);
@@ -80,33 +147,38 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const dempack
         const T shear = sqrt(r.shear[0] * r.shear[0] + r.shear[1] * r.shear[1] + r.shear[2] * r.shear[2]);
         store(&bonds.normal[b], r.normal);
         store(&bonds.shear[b], shear);
-        store(&bonds.criterion[b], dempack::failure_criterion(law, k_n, area, kin.shortening, r.normal, shear, state));
-        store(&bonds.stored[b], dempack::stored_energy(law, k_n, kin.shortening, r.normal, state));
+        store(&bonds.criterion[b], Law::failure_criterion(law, k_n, area, kin.shortening, r.normal, shear, state));
+        store(&bonds.stored[b], Law::stored_energy(law, k_n, kin.shortening, r.normal, state) + in_moments);
     }
 }
 
-template <bool damped, bool measure>
-void run(const SphereView& s, const BondView& bonds, const dempack::Parameters& law, std::size_t begin, std::size_t end, double dt,
-         BlockResult& out) {
+template <class Law, bool damped, bool moments, bool measure>
+void run(const SphereView& s, const BondView& bonds, const BondLaw& law, std::size_t begin, std::size_t end, double dt, BlockResult& out) {
     std::size_t b = begin;
     for (; b + lane_count<Lanes>() <= end; b += lane_count<Lanes>()) {
-        bond_group<Lanes, damped, measure>(s, bonds, law, b, dt, out);
+        bond_group<Law, Lanes, damped, moments, measure>(s, bonds, law, b, dt, out);
     }
     for (; b < end; ++b) {
-        bond_group<double, damped, measure>(s, bonds, law, b, dt, out);
+        bond_group<Law, double, damped, moments, measure>(s, bonds, law, b, dt, out);
     }
 }
 
 } // namespace
 
-void PROVETA_BOND_KERNEL(const SphereView& s, const BondView& bonds, const dempack::Parameters& law, std::size_t begin, std::size_t end,
-                         double dt, bool measure, BlockResult& out) {
+void PROVETA_BOND_KERNEL(const SphereView& s, const BondView& bonds, const BondLaw& law, std::size_t begin, std::size_t end, double dt,
+                         bool measure, BlockResult& out) {
     out.dissipation = {};
     out.failed = 0;
-    if (bonds.damped) {
-        measure ? run<true, true>(s, bonds, law, begin, end, dt, out) : run<true, false>(s, bonds, law, begin, end, dt, out);
+    const auto pick = [&](auto* measured, auto* unmeasured) { (measure ? measured : unmeasured)(s, bonds, law, begin, end, dt, out); };
+    // Rare variants take dashpots along, which cost them little.
+    if (law.kind == LawKind::released) {
+        pick(run<Released, true, false, true>, run<Released, true, false, false>);
+    } else if (law.has_moments()) {
+        pick(run<Dempack, true, true, true>, run<Dempack, true, true, false>);
+    } else if (bonds.damped) {
+        pick(run<Dempack, true, false, true>, run<Dempack, true, false, false>);
     } else {
-        measure ? run<false, true>(s, bonds, law, begin, end, dt, out) : run<false, false>(s, bonds, law, begin, end, dt, out);
+        pick(run<Dempack, false, false, true>, run<Dempack, false, false, false>);
     }
 }
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/bonds/dempack_law.hpp"
+#include "core/bonds/bond_law.hpp"
 #include "core/contacts/pair_kinematics.hpp"
 
 namespace proveta {
@@ -35,18 +35,18 @@ struct BondView {
     std::uint8_t* mode;
     PairForce* forces;
     double *normal, *shear, *criterion, *stored; ///< only when measuring
+    double* rotation[3];                         ///< only of bonds with moments
+    double* couple[3];
     bool damped;
 };
 
 /// Advances bonds begin to end, which share a law, by dt seconds.
-using BondKernel = void (*)(const SphereView&, const BondView&, const dempack::Parameters&, std::size_t begin, std::size_t end, double dt,
-                            bool measure, BlockResult&);
+using BondKernel = void (*)(const SphereView&, const BondView&, const BondLaw&, std::size_t begin, std::size_t end, double dt, bool measure,
+                            BlockResult&);
 
 // The same source compiled for three instruction sets (core/CMakeLists.txt).
-void bond_kernel_baseline(const SphereView&, const BondView&, const dempack::Parameters&, std::size_t, std::size_t, double, bool,
-                          BlockResult&);
-void bond_kernel_avx2(const SphereView&, const BondView&, const dempack::Parameters&, std::size_t, std::size_t, double, bool, BlockResult&);
-void bond_kernel_avx512(const SphereView&, const BondView&, const dempack::Parameters&, std::size_t, std::size_t, double, bool,
-                        BlockResult&);
+void bond_kernel_baseline(const SphereView&, const BondView&, const BondLaw&, std::size_t, std::size_t, double, bool, BlockResult&);
+void bond_kernel_avx2(const SphereView&, const BondView&, const BondLaw&, std::size_t, std::size_t, double, bool, BlockResult&);
+void bond_kernel_avx512(const SphereView&, const BondView&, const BondLaw&, std::size_t, std::size_t, double, bool, BlockResult&);
 
 } // namespace proveta

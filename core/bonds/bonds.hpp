@@ -35,10 +35,13 @@ struct Bonds {
     std::vector<double> damage_work;        ///< dissipated by damage and failure so far, J
     std::vector<std::uint8_t> mode;         ///< FailureMode
     std::vector<PairForce> forces;
-    Incidence incidence; ///< bonds of each sphere
-    std::vector<dempack::Parameters> laws;
+    Incidence incidence;  ///< bonds of each sphere
+    VectorField rotation; ///< theta of bonds with moments, rad; empty without
+    VectorField couple;   ///< moment of j on i of bonds with moments, N m; empty without
+    std::vector<BondLaw> laws;
     std::vector<BondBlock> blocks;
-    bool damped = false; ///< some bond has a dashpot
+    bool damped = false;  ///< some bond has a dashpot
+    bool moments = false; ///< some bond resists bending or twisting
 
     // Filled on request by `bond_forces`, for output.
     std::vector<double> normal;    ///< F_n without dashpot, compression positive, N

@@ -14,9 +14,12 @@
 //   k_n, k_t       stiffness a E A / d0 and b G A / d0 (5.34)                   N/m
 //   d_n, d_t       damage in tension and in shear, 0 to 1, never decreasing     -
 //
-// Tension      F = -(1 - d_n) k_n e, damage from u_l = sigma_f A / k_n to u_f = (1 + s_n) u_l              (5.20-5.24)
+// Tension      F = -(1 - d_n) k_n e, damage from u_l = sigma_f A / k_n to u_f                              (5.20-5.24)
 // Compression  F = min(k_n (u_n - u_p), envelope(u_n)); what lies above the envelope becomes plastic       (5.27-5.28)
-// Shear        F = (1 - d_t) k_t u_t, damage from u_l = (tau_f A + mu_s max(F_n, 0)) / k_t                 (5.20-5.24)
+// Shear        F = (1 - d_t) k_t u_t, damage from u_l = (tau_f A + mu_s max(F_n, 0)) / k_t to u_f          (5.20-5.24)
+// Softening    by ratio, u_f = (1 + s) u_l:   d = (u - u_l) / (u_f - u_l), a parabola, as the thesis has it (5.23-5.24)
+//              by fracture energy G:          d = (u_f / u) (u - u_l) / (u_f - u_l), a straight line in force that dissipates G A;
+//                u_f = 2 G_f / sigma_f in tension; in shear the branch has the length 2 G_s / tau_f - tau_f A / k_t under any normal force
 // After failure  no cohesion, same stiffnesses, Coulomb friction mu_d; the tangential spring starts anew at zero (5.2.5), so that a
 //                failure never creates energy. Contact distance d0 - u_p, so that the normal force is continuous.
 //
@@ -40,6 +43,8 @@ struct Parameters {
     double mu_d = 0.25;                       ///< friction after failure
     double softening_n = 0.2;                 ///< length of the softening branch in tension over u_l
     double softening_t = 0.2;                 ///< the same in shear
+    double opening_f = 0.0;                   ///< u_f in tension by fracture energy, 2 G_f / sigma_f, m; 0: by ratio
+    double slip_f = 0.0;                      ///< u_f in shear without normal force, 2 G_s / tau_f, m; 0: by ratio
     double lcs[3] = {20.0e6, 45.0e6, 70.0e6}; ///< stresses where the compression envelope changes slope, ascending, Pa
     double yrc[3] = {3.0, 12.0, 22.0};        ///< k_n over the slope beyond each of them, >= 1
 };
@@ -67,6 +72,20 @@ template <class T> struct Response {
     T plastic_work;  ///< dissipated by plastic shortening, J
     T friction_work; ///< dissipated by sliding after failure, J
 };
+
+/// Length of the softening branch, u_f - u_l, m. u_l: limit displacement now; u_l0: the same without normal force; end: u_f by fracture
+/// energy (0: by ratio).
+template <class T> inline T softening_length(double ratio, double end, const T& u_l, const T& u_l0) {
+    using std::max;
+    return end > 0.0 ? max(T(end) - u_l0, T(smallest)) : ratio * u_l;
+}
+
+/// Damage that belongs to displacement u >= u_l (5.23), 1 from u_f on.
+template <class T> inline T damage_at(const T& u, const T& u_l, const T& length, bool by_energy) {
+    using std::min;
+    const T share = (u - u_l) / length;
+    return min(by_energy ? share * (u_l + length) / u : share, T(1.0));
+}
 
 /// Force of the compression envelope at shortening u (5.28): slope k_n up to LCS1, k_n / YRC_i beyond LCS_i. Valid for u >= 0.
 template <class T> inline T compression_envelope(const Parameters& p, const T& k_n, const T& area, const T& u) {
@@ -120,7 +139,7 @@ template <class T> inline Response<T> advance(const Parameters& p, const T& k_n,
     const T strength_n = p.sigma_f * area;
     if (any_of(-r.normal > strength_n)) {
         const T u_l = max(strength_n / k_n, T(smallest));
-        const T damage = min((elongation - u_l) / (p.softening_n * u_l), one);
+        const T damage = damage_at(max(elongation, u_l), u_l, softening_length(p.softening_n, p.opening_f, u_l, u_l), p.opening_f > 0.0);
         s.d_n = select(was_broken, d_n_old, max(d_n_old, damage));
     }
 
@@ -136,7 +155,9 @@ template <class T> inline Response<T> advance(const Parameters& p, const T& k_n,
     const T strength_t = p.tau_f * area + p.mu_s * compression;
     if (any_of(k_t * k_t * length2 > strength_t * strength_t)) {
         const T u_l = max(strength_t / k_t, T(smallest));
-        const T damage = min((sqrt(length2) - u_l) / (p.softening_t * u_l), one);
+        const T u_l0 = p.tau_f * area / k_t;
+        const T u = max(sqrt(length2), u_l);
+        const T damage = damage_at(u, u_l, softening_length(p.softening_t, p.slip_f, u_l, u_l0), p.slip_f > 0.0);
         s.d_t = select(was_broken, d_t_old, max(d_t_old, damage));
     }
 
@@ -194,7 +215,8 @@ inline T failure_criterion(const Parameters& p, const T& k_n, const T& area, con
     using std::max;
     using std::min;
     const T zero = T(0.0);
-    const T u_f = p.sigma_f / k_n * area * (1.0 + p.softening_n);
+    const T u_l = p.sigma_f / k_n * area;
+    const T u_f = u_l + softening_length(p.softening_n, p.opening_f, u_l, u_l);
     const T tension = max(s.u_p - shortening, zero) / max(u_f, T(smallest));
     const T in_shear = shear / max(p.tau_f * area + p.mu_s * max(normal, zero), T(smallest));
     const auto broken = (s.d_n >= T(1.0)) || (s.d_t >= T(1.0));

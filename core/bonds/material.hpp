@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/bonds/dempack_law.hpp"
+#include "core/bonds/bond_law.hpp"
 
 namespace proveta {
 
@@ -22,12 +22,19 @@ struct Material {
     double local_damping = 0.0;       ///< xi of the dashpot c_n = 2 xi sqrt(m_eq k_n) in each bond
     double contact_restitution = 0.2; ///< normal restitution of new contacts
     AreaRule area_rule = AreaRule::virtual_polyhedron;
-    double area_factor = 1.0; ///< global alpha on the areas (5.4-5.6)
-    dempack::Parameters bond; ///< `shear_ratio` is derived, see `bond_law`
+    double area_factor = 1.0;       ///< global alpha on the areas (5.4-5.6)
+    BondLaw bond;                   ///< `shear_ratio`, `opening_f` and `slip_f` are derived, see `bond_law`
+    double fracture_energy_n = 0.0; ///< G_f of the bonds in tension, J/m2; 0: softening by ratio
+    double fracture_energy_t = 0.0; ///< G_s, the same in shear
 };
 
-/// The law's parameters for bonds of one material: the card's, with k_t / k_n = b / (2 (1 + nu) a) (5.17).
-dempack::Parameters bond_law(const Material& material);
+/// The law's parameters for bonds of one material: the card's, with k_t / k_n = b / (2 (1 + nu) a) (5.17) and, where fracture energies
+/// are given, u_f = 2 G_f / sigma_f and 2 G_s / tau_f. With an averaged criterion the law's own strengths are infinite.
+BondLaw bond_law(const Material& material);
+
+/// Longest bond whose softening branch does not snap back, for G in J/m2 against a strength in Pa and a modulus (a E in tension, b G in
+/// shear) in Pa: 2 E G / sigma^2, m.
+double longest_bond(double modulus, double fracture_energy, double strength);
 
 /// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest. Symmetric in a and b;
 /// of two equal materials it is that material.

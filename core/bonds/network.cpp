@@ -53,6 +53,8 @@ BondView Bonds::view() {
             shear.data(),
             criterion.data(),
             stored.data(),
+            {rotation.x.data(), rotation.y.data(), rotation.z.data()},
+            {couple.x.data(), couple.y.data(), couple.z.data()},
             damped};
 }
 
@@ -137,6 +139,7 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
             const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
             b.dashpot[at] = 2.0 * m.local_damping * std::sqrt(reduced * b.stiffness[at]);
             b.damped = b.damped || m.local_damping > 0.0;
+            b.moments = b.moments || m.bond.has_moments();
             b.forces[at].share_i = 0.5 * (d + spheres.radius[i] - spheres.radius[j]) / d;
             ++at;
         }
@@ -151,6 +154,10 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
         }
     }
     b.resize(at);
+    if (b.moments) {
+        b.rotation.resize(b.size());
+        b.couple.resize(b.size());
+    }
     b.incidence = make_incidence(spheres.size(), b.i, b.j);
     return b;
 }

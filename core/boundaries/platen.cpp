@@ -57,6 +57,7 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
 PlatenEnergies platen_forces(Spheres& spheres, Platen& p, double dt) {
     PlatenEnergies sum;
     p.reaction = Vec3::Zero();
+    p.force.resize(p.sphere.size());
     p.touching = 0;
     for (std::size_t k = 0; k < p.sphere.size(); ++k) {
         const auto s = static_cast<std::size_t>(p.sphere[k]);
@@ -72,6 +73,7 @@ PlatenEnergies platen_forces(Spheres& spheres, Platen& p, double dt) {
         p.slip_x[k] = u_t[0];
         p.slip_y[k] = u_t[1];
         const Vec3 force(r.shear[0], r.shear[1], r.normal * p.inward);
+        p.force.set(k, force);
         spheres.external_force.add(s, force);
         spheres.external_torque.add(s, arm.cross(force));
         p.reaction -= force;

@@ -29,6 +29,7 @@ struct Platen {
     std::vector<double> contact_distance;           ///< m
     std::vector<double> stiffness, shear_stiffness; ///< N/m
     std::vector<double> slip_x, slip_y;             ///< elastic tangential displacement, m
+    VectorField force;                              ///< on each listed sphere at the last step, N
     std::vector<double> capped;                     ///< per sphere of the specimen: contact distance from the start, m; 0: none
     double area_weight = 1.0;                       ///< contact area over the sphere's section
     Vec3 reaction = Vec3::Zero();                   ///< force of the specimen on the platen, N

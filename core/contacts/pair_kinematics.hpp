@@ -16,6 +16,9 @@ template <class T> struct PairKinematics {
     T separation; ///< speed at which the centres part, m/s
     T slip[3];    ///< tangential displacement of j's contact point against i's in the step, m
     T turned[3];  ///< the old tangential displacement, carried with the pair's frame, m
+    T turn[3];    ///< change of n in the step
+    T twist;      ///< rotation about n in the step by the mean spin, rad
+    T rolled[3];  ///< rotation of j against i in the step, rad
 };
 
 /// Geometry and relative motion of the pairs i[0..], j[0..] (2.6-2.13). share: lever arm of i over the distance; u: tangential
@@ -48,8 +51,9 @@ inline PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t
         w[c] = k.distance * (share * w_i[c] + (1.0 - share) * w_j[c]);
     }
     k.separation = dv[0] * n[0] + dv[1] * n[1] + dv[2] * n[2];
-    const T twist = 0.5 * dt * ((w_i[0] + w_j[0]) * n[0] + (w_i[1] + w_j[1]) * n[1] + (w_i[2] + w_j[2]) * n[2]);
+    k.twist = 0.5 * dt * ((w_i[0] + w_j[0]) * n[0] + (w_i[1] + w_j[1]) * n[1] + (w_i[2] + w_j[2]) * n[2]);
     const T out_of_plane = u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
+    const T twist = k.twist;
     const T shrink = 1.0 - 0.5 * twist * twist;
     for (int c = 0; c < 3; ++c) {
         const int p = (c + 1) % 3;
@@ -59,6 +63,8 @@ inline PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t
         const T turn = tangential * inverse * dt; // change of n in the step
         k.turned[c] = u[c] * shrink + twist * (n[p] * u[q] - n[q] * u[p]) - out_of_plane * (n[c] - 0.5 * turn);
         k.n[c] = n[c];
+        k.turn[c] = turn;
+        k.rolled[c] = (w_j[c] - w_i[c]) * dt;
     }
     return k;
 }

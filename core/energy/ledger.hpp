@@ -9,6 +9,7 @@ namespace proveta {
 /// measure of what the calculation lost or made.
 struct Ledger {
     double platens = 0.0;    ///< work of the platens on the specimen
+    double pressure = 0.0;   ///< work of pressures on the specimen
     double elastic = 0.0;    ///< stored in bonds, contacts and platen contacts, now
     double kinetic = 0.0;    ///< of translation and rotation, now
     double damage = 0.0;     ///< dissipated by damage and failure of bonds
@@ -18,11 +19,12 @@ struct Ledger {
     double background = 0.0; ///< by the non-viscous background damping (5.18-5.19)
 
     [[nodiscard]] double spent() const { return elastic + kinetic + damage + plastic + friction + dashpots + background; }
-    [[nodiscard]] double residual() const { return platens - spent(); }
+    [[nodiscard]] double work() const { return platens + pressure; }
+    [[nodiscard]] double residual() const { return work() - spent(); }
 
     /// Residual over the largest amount of energy that went through the ledger; 0 for an empty ledger.
     [[nodiscard]] double relative_residual() const {
-        const double scale = std::fmax(std::fabs(platens), spent());
+        const double scale = std::fmax(std::fabs(work()), spent());
         return scale > 0.0 ? residual() / scale : 0.0;
     }
 };

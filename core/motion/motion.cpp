@@ -25,6 +25,13 @@ void gather_pairs(const std::vector<PairForce>& pairs, const Incidence& incidenc
     }
 }
 
+void gather_couples(const VectorField& couples, const Incidence& incidence, std::size_t sphere, Sum& sum) {
+    for (auto k = incidence.offset[sphere]; k < incidence.offset[sphere + 1]; ++k) {
+        const Vec3 couple = couples.at(incidence.entry[k] >> 1);
+        sum.torque += (incidence.entry[k] & 1u) != 0 ? Vec3(-couple) : couple;
+    }
+}
+
 // One vector quantity (translation or rotation) through one step; returns the work of the damping.
 double kick(Vec3& velocity, const Vec3& load, double inertia, double alpha, double dt) {
     const double speed = velocity.norm();
@@ -51,6 +58,9 @@ MotionSums move_spheres(Spheres& s, const Bonds& bonds, const Contacts& contacts
         for (std::size_t k = part * block; k < std::min(n, (part + 1) * block); ++k) {
             Sum sum{s.external_force.at(k), s.external_torque.at(k)};
             gather_pairs(bonds.forces, bonds.incidence, k, sum);
+            if (bonds.moments) {
+                gather_couples(bonds.couple, bonds.incidence, k, sum);
+            }
             gather_pairs(contacts.forces, contacts.incidence, k, sum);
             Vec3 v = s.velocity.at(k);
             Vec3 w = s.spin.at(k);

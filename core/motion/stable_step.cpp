@@ -28,6 +28,12 @@ struct Block {
         damping.topLeftCorner<3, 3>() += weight * c_n * nn;
     }
 
+    // Bending and twisting stiffness of a bond.
+    void add_moments(const Vec3& n, double bend, double twist, double weight) {
+        const Mat3 nn = n * n.transpose();
+        stiffness.bottomRightCorner<3, 3>() += weight * (bend * (Mat3::Identity() - nn) + twist * nn);
+    }
+
     // Step at which lambda(K) dt^2 + 2 lambda(C) dt = 4, and the stiffness eigenvalue.
     std::pair<double, double> limit(double mass, double inertia, bool damped) const {
         Eigen::Matrix<double, 6, 1> scale;
@@ -60,6 +66,30 @@ void add_pairs(const Spheres& s, const Pairs& pairs, const std::vector<double>& 
     }
 }
 
+// The moments of the bonds of one sphere, with the same split as their springs.
+void add_moments(const Spheres& s, const Bonds& bonds, const std::vector<std::uint32_t>& law, std::size_t sphere,
+                 const std::vector<double>& g, Block& block) {
+    for (auto e = bonds.incidence.offset[sphere]; e < bonds.incidence.offset[sphere + 1]; ++e) {
+        const auto b = bonds.incidence.entry[e] >> 1;
+        const auto other = static_cast<std::size_t>((bonds.incidence.entry[e] & 1u) != 0 ? bonds.i[b] : bonds.j[b]);
+        const BondLaw& l = bonds.laws[law[b]];
+        block.add_moments((s.position.at(other) - s.position.at(sphere)).normalized(),
+                          l.bending_stiffness(bonds.stiffness[b], bonds.area[b]), l.twisting_stiffness(bonds.stiffness[b], bonds.area[b]),
+                          1.0 + g[other] / g[sphere]);
+    }
+}
+
+// Law of each bond, when some have moments.
+std::vector<std::uint32_t> laws_of(const Bonds& bonds) {
+    std::vector<std::uint32_t> law(bonds.moments ? bonds.size() : 0);
+    for (const auto& block : bonds.blocks) {
+        for (auto b = block.begin; b < block.end && bonds.moments; ++b) {
+            law[b] = block.law;
+        }
+    }
+    return law;
+}
+
 std::vector<double> shear_stiffness(const Bonds& bonds) {
     std::vector<double> k_t(bonds.size());
     for (const auto& block : bonds.blocks) {
@@ -74,6 +104,7 @@ std::vector<double> shear_stiffness(const Bonds& bonds) {
 
 StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.0) {
     const auto k_t = shear_stiffness(bonds);
+    const auto law = laws_of(bonds);
     std::vector<double> best = share_;
     single_ = share_;
     double lowest = 1e300;
@@ -83,6 +114,9 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
         for (std::size_t k = 0; k < s.size(); ++k) {
             Block block;
             add_pairs(s, bonds, k_t, k, share_, block);
+            if (bonds.moments) {
+                add_moments(s, bonds, law, k, share_, block);
+            }
             eigenvalue[k] = block.limit(s.mass[k], s.inertia[k], false).second;
         }
         const double largest = eigenvalue.empty() ? 0.0 : *std::max_element(eigenvalue.begin(), eigenvalue.end());
@@ -102,6 +136,7 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
 
 double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens) const {
     const auto k_t = shear_stiffness(bonds);
+    const auto law = laws_of(bonds);
     std::vector<std::vector<std::pair<std::size_t, std::size_t>>> walls(s.size()); // (platen, entry) of each sphere
     for (std::size_t p = 0; p < platens.size(); ++p) {
         for (std::size_t e = 0; e < platens[p].sphere.size(); ++e) {
@@ -113,6 +148,9 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
     for (std::size_t k = 0; k < s.size(); ++k) {
         Block block;
         add_pairs(s, bonds, k_t, k, share_, block);
+        if (bonds.moments) {
+            add_moments(s, bonds, law, k, share_, block);
+        }
         if (contacts.size() > 0) {
             add_pairs(s, contacts, contacts.shear_stiffness, k, single_, block);
         }

@@ -7,6 +7,9 @@ namespace proveta::verification {
 
 // Chapter 5
 Case regular_lattice();
+Case dempack_bond();
+Case weak_equals_none();
+Case released_law();
 Case polygon_areas();
 Case area_models();
 Case area_partition();

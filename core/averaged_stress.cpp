@@ -1,0 +1,143 @@
+#include "core/averaged_stress.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace proveta {
+
+std::vector<double> tributary_volumes(const Spheres& s, const Bonds& b) {
+    std::vector<double> volume(s.size(), 0.0);
+    for (std::size_t k = 0; k < b.size(); ++k) {
+        const double share = b.forces[k].share_i;
+        volume[static_cast<std::size_t>(b.i[k])] += b.area[k] * share * b.length[k] / 3.0;
+        volume[static_cast<std::size_t>(b.j[k])] += b.area[k] * (1.0 - share) * b.length[k] / 3.0;
+    }
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        if (volume[k] <= 0.0) {
+            volume[k] = 4.0 / 3.0 * std::numbers::pi * std::pow(s.radius[k], 3);
+        }
+    }
+    return volume;
+}
+
+namespace {
+
+// Sum over a sphere's pairs of branch x force: the branch of i is share_i (x_j - x_i), that of j points the other way, as does its force.
+template <class Pairs> void add_pairs(const Spheres& s, const Pairs& pairs, std::size_t sphere, Mat3& sum) {
+    const auto& in = pairs.incidence;
+    for (auto e = in.offset[sphere]; e < in.offset[sphere + 1]; ++e) {
+        const auto p = in.entry[e] >> 1;
+        const double share = (in.entry[e] & 1u) != 0 ? 1.0 - pairs.forces[p].share_i : pairs.forces[p].share_i;
+        const Vec3 to = s.position.at(static_cast<std::size_t>(pairs.j[p])) - s.position.at(static_cast<std::size_t>(pairs.i[p]));
+        sum -= share * to * Vec3(pairs.forces[p].force[0], pairs.forces[p].force[1], pairs.forces[p].force[2]).transpose();
+    }
+}
+
+} // namespace
+
+std::vector<Mat3> sphere_stresses(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
+                                  const std::vector<Pressure>& pressures, const std::vector<double>& volume) {
+    std::vector<Mat3> sum(s.size(), Mat3::Zero());
+    for (const auto& platen : platens) {
+        for (std::size_t k = 0; k < platen.sphere.size(); ++k) {
+            const auto i = static_cast<std::size_t>(platen.sphere[k]);
+            const Vec3 arm(0.0, 0.0, platen.position - s.position.z[i]);
+            sum[i] -= arm * platen.force.at(k).transpose();
+        }
+    }
+    for (const auto& pressure : pressures) {
+        for (std::size_t k = 0; k < pressure.force.size(); ++k) {
+            const auto i = static_cast<std::size_t>(pressure.sphere[k]);
+            const Vec3 force = pressure.force.at(k);
+            sum[i] += s.radius[i] * force.normalized() * force.transpose(); // it acts at the foot of the sphere, against the force
+        }
+    }
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        add_pairs(s, bonds, k, sum[k]);
+        if (contacts.size() > 0) {
+            add_pairs(s, contacts, k, sum[k]);
+        }
+        sum[k] = (0.5 / volume[k]) * (sum[k] + sum[k].transpose()).eval();
+    }
+    return sum;
+}
+
+double mohr_coulomb(const Mat3& stress, double cohesion, double mu, double sigma_f) {
+    const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+    const double radius = 0.5 * (principal[2] - principal[0]);
+    const double centre = cohesion + 0.5 * mu * (principal[2] + principal[0]);
+    // tau / (c + mu sigma) over the planes of Mohr's circle has its maximum t / sqrt(a^2 - (mu t)^2), a = c + mu s.
+    const double left = centre * centre - mu * mu * radius * radius;
+    const double shear = radius <= 0.0 ? 0.0 : centre > 0.0 && left > 0.0 ? radius / std::sqrt(left) : 1e300;
+    return std::max(shear, std::max(-principal[0], 0.0) / std::max(sigma_f, dempack::smallest));
+}
+
+double rankine(const Mat3& stress, double sigma_f) {
+    const double lowest = Eigen::SelfAdjointEigenSolver<Mat3>(stress, Eigen::EigenvaluesOnly).eigenvalues()[0];
+    return std::max(-lowest, 0.0) / std::max(sigma_f, dempack::smallest);
+}
+
+void averaged_criteria(const Bonds& b, const std::vector<Mat3>& stress, std::vector<double>& value,
+                       std::vector<std::uint8_t>& shear_governs) {
+    value.resize(b.size());
+    shear_governs.assign(b.size(), 0);
+    for (const auto& block : b.blocks) {
+        const BondLaw& law = b.laws[block.law];
+        if (law.criterion == Criterion::bond) {
+            continue;
+        }
+#pragma omp parallel for schedule(static)
+        for (std::size_t k = block.begin; k < block.end; ++k) {
+            if (b.mode[k] != 0) {
+                value[k] = 1.0;
+                continue;
+            }
+            const Mat3 mean = 0.5 * (stress[static_cast<std::size_t>(b.i[k])] + stress[static_cast<std::size_t>(b.j[k])]);
+            const double tension = rankine(mean, law.averaged_sigma_f);
+            const bool coulomb = law.criterion == Criterion::mohr_coulomb;
+            value[k] = coulomb ? mohr_coulomb(mean, law.averaged_tau_f, law.mu_s, law.averaged_sigma_f) : tension;
+            shear_governs[k] = value[k] > tension ? 1 : 0;
+        }
+    }
+}
+
+double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, FailureMode mode, double dt) {
+    const auto i = static_cast<std::size_t>(b.i[bond]);
+    const auto j = static_cast<std::size_t>(b.j[bond]);
+    const Vec3 to = s.position.at(j) - s.position.at(i);
+    const double d = to.norm();
+    const Vec3 n = to / d;
+    const double k_n = b.stiffness[bond];
+    const BondLaw* law = nullptr;
+    for (const auto& block : b.blocks) {
+        if (bond >= block.begin && bond < block.end) {
+            law = &b.laws[block.law];
+        }
+    }
+    const double elongation = d - (b.length[bond] - b.plastic[bond]);
+    const double before = elongation - (s.velocity.at(j) - s.velocity.at(i)).dot(n) * dt;
+    const Vec3 slip = b.slip.at(bond);
+    const Vec3 force(b.forces[bond].force[0], b.forces[bond].force[1], b.forces[bond].force[2]);
+    const double work_n = 0.5 * k_n * std::max(elongation, 0.0) * std::max(before, 0.0);
+    double work = work_n + 0.5 * k_n * law->shear_ratio * slip.squaredNorm();
+    if (b.moments) {
+        work += 0.5 * b.couple.at(bond).dot(b.rotation.at(bond));
+        b.couple.set(bond, Vec3::Zero());
+        b.rotation.set(bond, Vec3::Zero());
+    }
+    const Vec3 left = elongation > 0.0 ? Vec3::Zero().eval() : Vec3(n * n.dot(force));
+    for (int c = 0; c < 3; ++c) {
+        b.forces[bond].force[c] = left[c];
+        b.forces[bond].moment[c] = 0.0;
+    }
+    b.slip.set(bond, Vec3::Zero());
+    (mode == FailureMode::tension ? b.damage_n : b.damage_t)[bond] = 1.0;
+    b.mode[bond] = static_cast<std::uint8_t>(mode);
+    b.damage_work[bond] += work;
+    return work;
+}
+
+} // namespace proveta
