@@ -18,6 +18,7 @@ Spheres make_spheres(const Specimen& specimen, const Deck& deck, std::vector<Mat
         materials.push_back(to_material(region.material.values));
     }
     Spheres s;
+    s.planar = specimen.shape.planar();
     for (const auto k : hilbert_order(specimen.spheres.centre)) {
         const Vec3 at = specimen.spheres.centre.at(k);
         int material = 0;
@@ -50,6 +51,21 @@ std::uint64_t hash_of(const Specimen& specimen) {
 }
 
 namespace {
+
+// What the cards leave to the specimen: global factors on areas, and areas that come from its tessellation.
+void choose_areas(const Deck& deck, const Spheres& spheres, const std::vector<Pair>& pairs, std::vector<Material>& materials,
+                  Bench& bench) {
+    for (std::size_t k = 0; k < materials.size(); ++k) {
+        const Card& card = k == 0 ? deck.material.values : deck.regions[k - 1].material.values;
+        if (card.area_factor.word == "auto") {
+            bench.area_factor = 40.0 * bench.statistics.porosity / bench.coordination;
+            materials[k].area_factor = *bench.area_factor;
+        }
+        if (materials[k].area_rule == AreaRule::laguerre && !bench.laguerre) {
+            bench.laguerre = laguerre_areas(bench.specimen.shape, spheres, pairs);
+        }
+    }
+}
 
 // A bond whose elastic energy at the limit exceeds its fracture energy would soften backwards in displacement.
 void refuse_snap_back(const Bonds& bonds, const Deck& deck) {
@@ -114,9 +130,11 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     const bool automatic = deck.bonding.interaction_range.word == "auto";
     std::vector<Pair> pairs;
     try {
-        pairs = bonded_pairs(spheres, {deck.bonding.interaction_range.number, automatic ? deck.bonding.coordination : 0.0}, bench.beta);
+        pairs = bonded_pairs(spheres,
+                             {deck.bonding.interaction_range.number, automatic ? coordination_of(deck.bonding, bench.specimen.shape) : 0.0},
+                             bench.beta);
     } catch (const std::runtime_error& e) {
-        fail("/bonding/coordination", fmt::format("{:.4g}; {}", deck.bonding.coordination, e.what()),
+        fail("/bonding/coordination", fmt::format("{:.4g}; {}", coordination_of(deck.bonding, bench.specimen.shape), e.what()),
              "a coordination that the packing can have",
              fmt::format("the specimen has {} spheres with {:.3g} touching neighbours each", spheres.size(), bench.statistics.touching));
     }
@@ -125,7 +143,13 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     }
     bench.coordination = 2.0 * static_cast<double>(pairs.size()) / static_cast<double>(spheres.size());
     std::vector<double> weight;
-    Bonds bonds = make_bonds(spheres, materials, pairs, bench.skin, weight);
+    choose_areas(deck, spheres, pairs, materials, bench);
+    Bonds bonds = make_bonds(spheres, materials, pairs, bench.skin, weight, bench.laguerre ? &bench.laguerre->areas : nullptr);
+    if (bonds.size() == 0) {
+        fail("/material/area_rule", "no bond with an area", "a rule that gives the bonds areas");
+    }
+    bench.dropped = pairs.size() - bonds.size();
+    bench.coordination = 2.0 * static_cast<double>(bonds.size()) / static_cast<double>(spheres.size());
     refuse_snap_back(bonds, deck);
     bench.partition = partition(bench.specimen.shape, spheres, bonds);
     bench.wave_speed = std::sqrt(materials.front().normal_factor * materials.front().young_modulus / materials.front().density);

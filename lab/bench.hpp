@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "core/model.hpp"
 #include "lab/deck.hpp"
+#include "specimens/laguerre.hpp"
 #include "specimens/statistics.hpp"
 
 namespace proveta {
@@ -15,9 +17,12 @@ struct Bench {
     Specimen specimen;
     SpecimenStatistics statistics;
     Partition partition;
-    double beta = 0.0;         ///< interaction range used
-    double coordination = 0.0; ///< mean number of bonds a sphere
-    double wave_speed = 0.0;   ///< sqrt(a E / rho) of the deck's material, m/s
+    double beta = 0.0;                     ///< interaction range used
+    double coordination = 0.0;             ///< mean number of bonds a sphere
+    std::optional<double> area_factor;     ///< alpha = 40 P / N_c, where a card leaves it to the specimen
+    std::optional<LaguerreAreas> laguerre; ///< where a card's area rule wants it
+    std::size_t dropped = 0;               ///< pairs within reach that are not bonded, because they share no facet
+    double wave_speed = 0.0;               ///< sqrt(a E / rho) of the deck's material, m/s
     std::uint64_t specimen_hash = 0;
     std::vector<std::uint8_t> skin; ///< of the model's spheres, in its order
     std::unique_ptr<Model> model;

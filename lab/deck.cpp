@@ -25,8 +25,15 @@ void declare(input::Visitor& v, MaterialRegion& r) {
 void declare(input::Visitor& v, BondingInput& b) {
     v.number_or_word("interaction_range", b.interaction_range, {{"auto", "found so that the mean coordination is met"}}, Unit::none,
                      between(0, 1), "beta: spheres are bonded when their distance is at most (1 + beta)(R_i + R_j)");
-    v.number("coordination", b.coordination, Unit::none, {0.0, 30.0, true, false},
-             "mean number of bonds a sphere, when interaction_range is \"auto\"");
+    v.number_or_word("coordination", b.coordination, {{"auto", "10; in a plate 5.1"}}, Unit::none, {0.0, 30.0, true, false},
+                     "mean number of bonds a sphere, when interaction_range is \"auto\"");
+}
+
+double coordination_of(const BondingInput& b, const Shape& shape) {
+    if (b.coordination.word.empty()) {
+        return b.coordination.number;
+    }
+    return shape.planar() ? 5.1 : 10.0; // meshes 2D-1 to 2D-3 of the thesis have 5.08 to 5.24 (table 5.3)
 }
 
 void declare(input::Visitor& v, NumericsInput& n) {

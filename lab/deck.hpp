@@ -23,7 +23,7 @@ struct MaterialRegion {
 
 struct BondingInput {
     input::NumberOrWord interaction_range{0.0, "auto"};
-    double coordination = 10.0;
+    input::NumberOrWord coordination{0.0, "auto"};
 };
 
 struct NumericsInput {
@@ -46,6 +46,9 @@ void declare(input::Visitor& v, MaterialRegion& region);
 void declare(input::Visitor& v, BondingInput& bonding);
 void declare(input::Visitor& v, NumericsInput& numerics);
 void declare(input::Visitor& v, OutputInput& output);
+
+/// Mean coordination that bonding asks for: the number, or what "auto" stands for in the specimen's shape.
+double coordination_of(const BondingInput& bonding, const Shape& shape);
 
 /// A deck as read, every default filled in.
 struct Deck {

@@ -71,8 +71,7 @@ void sphere_states(const Bench& bench, std::vector<double>& stress, std::vector<
     const double solid = 1.0 - bench.statistics.porosity;
     stress.clear();
     for (std::size_t k = 0; k < n; ++k) {
-        const double r = m.spheres.radius[k];
-        const Mat3 s = sum[k] * (solid / (4.0 / 3.0 * std::numbers::pi * r * r * r));
+        const Mat3 s = sum[k] * (solid / m.spheres.volume(k));
         const Mat3 t = 0.5 * (s + s.transpose());
         stress.insert(stress.end(), {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)});
         damage[k] /= std::max(1.0, bonds[k]);
@@ -140,7 +139,7 @@ report::Geometry platen_fields(const Bench& bench) {
         std::vector<std::int64_t> cell;
         for (int k = 0; k < corners; ++k) {
             const double angle = 2.0 * std::numbers::pi * k / corners;
-            const double reach = 0.6 * (shape.kind == ShapeKind::cylinder ? shape.diameter : std::hypot(shape.width, shape.depth));
+            const double reach = 0.6 * (shape.kind == ShapeKind::prism ? std::hypot(shape.width, shape.depth) : shape.lateral_size());
             cell.push_back(static_cast<std::int64_t>(g.points.size()));
             g.points.push_back({reach * std::cos(angle), reach * std::sin(angle), p.position});
         }
@@ -170,7 +169,8 @@ report::PictureLine stroke(const Model& m, std::size_t b) {
     const Vec3 to = m.spheres.position.at(j) - a;
     const Vec3 middle = a + 0.5 * to;
     const double flat = std::max(std::hypot(to.x(), to.z()), 1e-300);
-    const double reach = std::sqrt(m.bonds.area[b] / std::numbers::pi) * flat / to.norm();
+    const double wide = m.spheres.planar ? 0.5 * m.bonds.area[b] : std::sqrt(m.bonds.area[b] / std::numbers::pi);
+    const double reach = wide * flat / to.norm();
     const Vec3 half(-reach * to.z() / flat, 0.0, reach * to.x() / flat);
     const double parted = (to - (m.spheres.start.at(j) - m.spheres.start.at(i))).norm();
     return {middle.x() - half.x(), middle.z() - half.z(), middle.x() + half.x(), middle.z() + half.z(), m.bonds.mode[b], parted};
@@ -211,7 +211,7 @@ report::Picture slice(const Bench& bench, const std::string& title) {
     for (auto& line : p.lines) {
         line.weight /= std::max(widest, 1e-300);
     }
-    p.caption = "Slice through the axis, two mean radii thick.";
+    p.caption = m.spheres.planar ? "The plate." : "Slice through the axis, two mean radii thick.";
     if (farthest > 0.0) {
         p.caption += fmt::format(" Shade: sideways displacement, up to {:.3g} mm.", 1e3 * farthest);
     }

@@ -80,7 +80,7 @@ report::Table Instruments::empty_curve() const {
                  {"deviatoric_stress", "Pa", "axial stress minus confining pressure"},
                  {"gauge_axial_strain", "", "shortening of the middle gauge length"},
                  {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin"},
-                 {"volumetric_strain", "", "gauge axial strain plus twice the circumferential strain"},
+                 {"volumetric_strain", "", "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
                  {"force_bottom", "N", "force on the lower platen"},
                  {"force_top", "N", "force on the upper platen"},
                  {"inner_stress_xx", "Pa", "Love-Weber stress averaged over the inner 60 % of diameter and height"},
@@ -126,9 +126,10 @@ void Instruments::sample(const Bench& bench, report::Table& curve, report::Table
     girth /= std::max<double>(1.0, static_cast<double>(girth_.size()));
     const Mat3 inner = mean_stress(m, inner_);
     const double stress = 0.5 * (bottom + top) / section_;
-    curve.rows.push_back({m.time(), strain, stress, stress, gauge, girth, gauge + 2.0 * girth, bottom, top, inner(0, 0), inner(1, 1),
-                          inner(2, 2), inner(0, 1), inner(1, 2), inner(2, 0), static_cast<double>(broken_tension_ + broken_shear_),
-                          static_cast<double>(broken_tension_), static_cast<double>(broken_shear_), m.measures().unbalanced_ratio});
+    curve.rows.push_back({m.time(), strain, stress, stress, gauge, girth, gauge + (m.spheres.planar ? 1.0 : 2.0) * girth, bottom, top,
+                          inner(0, 0), inner(1, 1), inner(2, 2), inner(0, 1), inner(1, 2), inner(2, 0),
+                          static_cast<double>(broken_tension_ + broken_shear_), static_cast<double>(broken_tension_),
+                          static_cast<double>(broken_shear_), m.measures().unbalanced_ratio});
     const Ledger& l = m.ledger();
     energy.rows.push_back(
         {m.time(), strain, l.platens, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots, l.background, l.residual()});

@@ -79,25 +79,32 @@ report::TextTable ledger_table(const report::Table& energy) {
 
 report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
     const auto& s = bench.statistics;
-    const auto& shape = bench.specimen.shape;
-    const std::string size =
-        shape.kind == ShapeKind::cylinder
-            ? fmt::format("cylinder {:.4g} x {:.4g} mm", 1e3 * shape.diameter, 1e3 * shape.height)
-            : fmt::format("prism {:.4g} x {:.4g} x {:.4g} mm", 1e3 * shape.width, 1e3 * shape.depth, 1e3 * shape.height);
-    return {"Specimen and material",
-            {{"Quantity", "Value"},
-             {"Shape", size},
-             {"Spheres", fmt::format("{}, mean radius {:.3f} mm, relative deviation {:.1f} %", s.spheres, 1e3 * s.mean_radius,
-                                     100 * s.relative_deviation)},
-             {"Porosity", fmt::format("{:.2f} % (overlaps counted twice)", 100 * s.porosity)},
-             {"Bonds", fmt::format("{}, mean coordination {:.2f}, interaction range beta = {:.4f}", bench.model->bonds.size(),
-                                   bench.coordination, bench.beta)},
-             {"Bond areas over the section", fmt::format("{:.4f} (whole), {:.4f} (interior); sum(A d)/V = {:.3f}", bench.partition.section,
-                                                         bench.partition.interior, bench.partition.filling)},
-             {"Fabric deviator", fmt::format("{:.4f}", s.fabric_deviator)},
-             {"Largest overlap", fmt::format("{:.3f} of the smaller radius", s.largest_overlap)},
-             {"Material", fmt::format("{}: {}", deck.material.values.name, deck.material.values.about)},
-             {"Source of the material", fmt::format("{} (status: {})", deck.material.values.source, deck.material.values.status)}}};
+    report::TextTable t{
+        "Specimen and material",
+        {{"Quantity", "Value"},
+         {"Shape", bench.specimen.shape.text()},
+         {"Spheres", fmt::format("{}, mean radius {:.3f} mm, relative deviation {:.1f} %", s.spheres, 1e3 * s.mean_radius,
+                                 100 * s.relative_deviation)},
+         {"Porosity", fmt::format("{:.2f} % (overlaps counted twice)", 100 * s.porosity)},
+         {"Bonds", fmt::format("{}, mean coordination {:.2f}, interaction range beta = {:.4f}", bench.model->bonds.size(),
+                               bench.coordination, bench.beta)},
+         {"Bond areas over the section", fmt::format("{:.4f} (whole), {:.4f} (interior); sum(A d)/V = {:.3f}", bench.partition.section,
+                                                     bench.partition.interior, bench.partition.filling)},
+         {"Fabric deviator", fmt::format("{:.4f}", s.fabric_deviator)},
+         {"Largest overlap", fmt::format("{:.3f} of the smaller radius", s.largest_overlap)},
+         {"Material", fmt::format("{}: {}", deck.material.values.name, deck.material.values.about)},
+         {"Source of the material", fmt::format("{} (status: {})", deck.material.values.source, deck.material.values.status)}}};
+    if (bench.area_factor) {
+        t.rows.push_back({"Factor on bond areas", fmt::format("{:.4f} = 40 P / N_c (5.6)", *bench.area_factor)});
+    }
+    if (bench.laguerre) {
+        t.rows.push_back(
+            {"Tessellation", fmt::format("{} bonds dropped without a facet; {:.2f} % of the facet area belongs to no bond; cells fill "
+                                         "{:.4f} of the shape; {} spheres without a cell",
+                                         bench.dropped, 100.0 * bench.laguerre->unbonded_share, bench.laguerre->volume_ratio,
+                                         bench.laguerre->without_cell)});
+    }
+    return t;
 }
 
 report::TextTable standards_table(const ProtocolInfo& info) {
@@ -166,6 +173,15 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
                                          "(card's area rule: {}).",
                                          bench.partition.section, deck.material.values.area_rule));
     }
+    if (bench.laguerre) {
+        const auto pairs = static_cast<double>(bench.dropped + bench.model->bonds.size());
+        if (static_cast<double>(bench.dropped) > 0.02 * pairs || bench.laguerre->unbonded_share > 0.05) {
+            r.warnings.push_back(
+                fmt::format("Exact areas: {} pairs within reach share no facet and are not bonded, and {:.1f} % of the facet "
+                            "area belongs to pairs beyond reach; set bonding.coordination so that both are few.",
+                            bench.dropped, 100.0 * bench.laguerre->unbonded_share));
+        }
+    }
     if (bench.model->dt() < bench.model->first_dt()) {
         r.warnings.push_back(
             fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when new contacts had made the specimen stiffer.",
@@ -211,6 +227,15 @@ input::Json summary(const report::Record& r, const Bench& bench, double seconds)
                      {"area_filling", bench.partition.filling},
                      {"fabric_deviator", s.fabric_deviator},
                      {"largest_overlap", s.largest_overlap}};
+    if (bench.area_factor) {
+        j["specimen"]["area_factor"] = *bench.area_factor;
+    }
+    if (bench.laguerre) {
+        j["specimen"]["bonds_dropped_without_facet"] = bench.dropped;
+        j["specimen"]["unbonded_share_of_facet_area"] = bench.laguerre->unbonded_share;
+        j["specimen"]["cells_over_volume"] = bench.laguerre->volume_ratio;
+        j["specimen"]["spheres_without_cell"] = bench.laguerre->without_cell;
+    }
     j["steps"] = bench.model->steps();
     j["time_step_s"] = bench.model->dt();
     j["final_state_hash"] = hex(bench.model->state_hash());

@@ -32,9 +32,12 @@ void declare(input::Visitor& v, Card& c) {
     v.choice("area_rule", c.area_rule,
              {{"virtual_polyhedron", "weighted areas that partition space, thesis 5.3"},
               {"truncated_cone", "pi R_i R_j, (5.33)"},
-              {"minimum_radius", "pi min(R_i, R_j)^2, (5.4-5.6)"}},
+              {"minimum_radius", "pi min(R_i, R_j)^2, (5.4-5.6)"},
+              {"laguerre", "exact facets of the radical tessellation; a bond without a facet is dropped"}},
              "rule for the effective area of a bond; the other numbers hold for this rule only");
-    v.number("area_factor", c.area_factor, Unit::none, above(0), "global factor alpha on all areas (5.5)");
+    v.number_or_word("area_factor", c.area_factor,
+                     {{"auto", "40 P / N_c of the specimen's porosity and mean coordination (5.6); only with minimum_radius"}}, Unit::none,
+                     above(0), "global factor alpha on all areas (5.5)");
     v.number("density", c.density, Unit::density, above(0), "density of the spheres");
     v.number("young_modulus", c.young_modulus, Unit::pressure, above(0), "Young's modulus E0 given to the bonds (5.34)");
     v.number("poisson_ratio", c.poisson_ratio, Unit::none, {-1.0, 0.5, true, false},
@@ -93,9 +96,10 @@ Material to_material(const Card& c) {
     m.restitution_rule = c.restitution_rule == "nominal" ? RestitutionRule::nominal : RestitutionRule::corrected;
     m.contact_law = c.contact_law == "hertz" ? ContactLaw::hertz : ContactLaw::linear;
     m.rolling_friction = c.rolling_friction;
-    m.area_factor = c.area_factor;
+    m.area_factor = c.area_factor.word.empty() ? c.area_factor.number : 1.0;
     m.area_rule = c.area_rule == "minimum_radius"   ? AreaRule::minimum_radius
                   : c.area_rule == "truncated_cone" ? AreaRule::truncated_cone
+                  : c.area_rule == "laguerre"       ? AreaRule::laguerre
                                                     : AreaRule::virtual_polyhedron;
     m.bond.sigma_f = c.strength_factor * c.sigma_f;
     m.bond.tau_f = c.strength_factor * c.tau_f;
@@ -122,6 +126,10 @@ Material to_material(const Card& c) {
 }
 
 void check_card(const Card& c, const std::string& source, const std::string& path, input::Problems& problems) {
+    if (c.area_factor.word == "auto" && c.area_rule != "minimum_radius") {
+        problems.push_back({source, path + "/area_factor", "\"auto\" with the area rule " + c.area_rule,
+                            "a number, or the area rule minimum_radius", "40 P / N_c corrects that rule's areas (5.4-5.6) and no other's"});
+    }
     for (std::size_t k = 1; k < 3; ++k) {
         if (c.lcs[k] <= c.lcs[k - 1]) {
             problems.push_back({source, path + "/lcs",

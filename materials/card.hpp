@@ -18,7 +18,7 @@ struct Card {
     std::string law = "dempack";
     std::string criterion = "bond";
     std::string area_rule = "virtual_polyhedron";
-    double area_factor = 1.0;
+    input::NumberOrWord area_factor{1.0, ""};
     double density = 2500.0;
     double young_modulus = 28.0e9;
     double poisson_ratio = 0.2;
@@ -49,7 +49,8 @@ struct Card {
 
 void declare(input::Visitor& v, Card& card);
 
-/// The numbers of a card as the physics wants them; strength_factor multiplies sigma_f, tau_f and the LCS.
+/// The numbers of a card as the physics wants them; strength_factor multiplies sigma_f, tau_f and the LCS. An area_factor "auto" is left at 1:
+/// only a specimen tells it.
 Material to_material(const Card& card);
 
 /// Card name that stands for no card: the numbers of table 5.5, to be overridden.

@@ -1,5 +1,7 @@
 #include "specimens/shape.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,19 +10,42 @@ namespace proveta {
 
 using std::numbers::pi;
 
-double Shape::section() const { return kind == ShapeKind::cylinder ? 0.25 * pi * diameter * diameter : width * depth; }
+double Shape::section() const {
+    if (kind == ShapeKind::cylinder) {
+        return 0.25 * pi * diameter * diameter;
+    }
+    return planar() ? width : width * depth;
+}
 
 double Shape::volume() const { return section() * height; }
 
-double Shape::lateral_size() const { return kind == ShapeKind::cylinder ? diameter : std::min(width, depth); }
+double Shape::lateral_size() const {
+    if (kind == ShapeKind::cylinder) {
+        return diameter;
+    }
+    return planar() ? width : std::min(width, depth);
+}
 
-std::string Shape::name() const { return kind == ShapeKind::cylinder ? "cylinder" : "prism"; }
+std::string Shape::name() const {
+    if (kind == ShapeKind::cylinder) {
+        return "cylinder";
+    }
+    return planar() ? "plate" : "prism";
+}
+
+std::string Shape::text() const {
+    if (kind == ShapeKind::prism) {
+        return fmt::format("{} {:.5g} x {:.5g} x {:.5g} mm", name(), 1e3 * width, 1e3 * depth, 1e3 * height);
+    }
+    return fmt::format("{} {:.5g} x {:.5g} mm", name(), 1e3 * (planar() ? width : diameter), 1e3 * height);
+}
 
 double Shape::depth_below_side(const Vec3& p) const {
     if (kind == ShapeKind::cylinder) {
         return 0.5 * diameter - std::hypot(p.x(), p.y());
     }
-    return std::min(0.5 * width - std::fabs(p.x()), 0.5 * depth - std::fabs(p.y()));
+    const double across = 0.5 * width - std::fabs(p.x());
+    return planar() ? across : std::min(across, 0.5 * depth - std::fabs(p.y()));
 }
 
 double Shape::depth_below_end(const Vec3& p) const { return std::min(p.z(), height - p.z()); }
@@ -38,7 +63,7 @@ Vec3 Shape::keep_inside(Vec3 p, double r) const {
         }
     } else {
         p.x() = std::clamp(p.x(), -0.5 * width + r, 0.5 * width - r);
-        p.y() = std::clamp(p.y(), -0.5 * depth + r, 0.5 * depth - r);
+        p.y() = planar() ? 0.0 : std::clamp(p.y(), -0.5 * depth + r, 0.5 * depth - r);
     }
     return p;
 }
@@ -47,7 +72,7 @@ Shape::Region Shape::inner(double lateral, double along) const {
     Region r;
     r.round = kind == ShapeKind::cylinder;
     r.size_x = lateral * (r.round ? diameter : width);
-    r.size_y = lateral * (r.round ? diameter : depth);
+    r.size_y = planar() ? 1.0 : lateral * (r.round ? diameter : depth);
     r.height = along * height;
     r.base = 0.5 * (height - r.height);
     return r;

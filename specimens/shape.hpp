@@ -1,4 +1,4 @@
-// The solid that a specimen fills: a cylinder or a prism standing on the plane z = 0.
+// The solid that a specimen fills: a cylinder or a prism standing on the plane z = 0, or a plate of discs.
 #pragma once
 
 #include <string>
@@ -7,20 +7,23 @@
 
 namespace proveta {
 
-enum class ShapeKind { cylinder, prism };
+enum class ShapeKind { cylinder, prism, plate };
 
-/// A right cylinder or rectangular prism with axis z, centred on it, from z = 0 to z = height. Lengths in m.
+/// A right cylinder or rectangular prism with axis z, centred on it, from z = 0 to z = height; or a plate in the plane y = 0, width along
+/// x, 1 m thick (its section is width x 1 m). Lengths in m.
 struct Shape {
     ShapeKind kind = ShapeKind::cylinder;
     double diameter = 0.15; ///< of a cylinder
-    double width = 0.15;    ///< of a prism, along x
+    double width = 0.15;    ///< of a prism or plate, along x
     double depth = 0.15;    ///< of a prism, along y
     double height = 0.30;
 
     [[nodiscard]] double section() const;      ///< area across z, m2
     [[nodiscard]] double volume() const;       ///< m3
-    [[nodiscard]] double lateral_size() const; ///< diameter, or the smaller side
+    [[nodiscard]] double lateral_size() const; ///< diameter, the smaller side, or the width
     [[nodiscard]] std::string name() const;
+    [[nodiscard]] std::string text() const; ///< name and size in mm
+    [[nodiscard]] bool planar() const { return kind == ShapeKind::plate; }
 
     /// Distance from p to the lateral surface, positive inside, m.
     [[nodiscard]] double depth_below_side(const Vec3& p) const;

@@ -25,15 +25,18 @@ void declare(input::Visitor& v, GradingPoint& p) {
 void declare(input::Visitor& v, SpecimenRecipe& r) {
     v.text("file", r.file, "a stored specimen (.h5) to take instead of making one; the other keys are then not used");
     v.choice("shape", r.shape,
-             {{"cylinder", "diameter and height"}, {"disc", "a short cylinder: diameter and height"}, {"prism", "width, depth and height"}},
+             {{"cylinder", "diameter and height"},
+              {"disc", "a short cylinder: diameter and height"},
+              {"prism", "width, depth and height"},
+              {"plate", "discs in the plane y = 0, 1 m thick: width and height"}},
              "solid that the spheres fill");
     v.number("diameter", r.diameter, Unit::length, between(1e-4, 100), "diameter of a cylinder");
-    v.number("width", r.width, Unit::length, between(1e-4, 100), "side of a prism along x");
+    v.number("width", r.width, Unit::length, between(1e-4, 100), "side of a prism or plate along x");
     v.number("depth", r.depth, Unit::length, between(1e-4, 100), "side of a prism along y");
     v.number("height", r.height, Unit::length, between(1e-4, 100), "height along z");
     v.integer("spheres", r.spheres, 2, 20000000, "number of spheres; with the porosity it gives the mean radius");
-    v.number("porosity", r.porosity, Unit::none, between(0.05, 0.9),
-             "1 - (volume of all spheres, overlaps counted twice) / (volume of the shape)");
+    v.number_or_word("porosity", r.porosity, {{"auto", "0.257; of a plate 0.10"}}, Unit::none, between(0.02, 0.9),
+                     "1 - (volume of all spheres, overlaps counted twice) / (volume of the shape)");
     v.number("radius_deviation", r.radius_deviation, Unit::none, between(0, 0.5),
              "standard deviation of the radii over their mean, of a normal distribution cut at the two bounds below");
     v.number("smallest_radius", r.smallest_radius, Unit::none, {0.05, 1.0, false, false}, "lower cut, over the mean radius");
@@ -50,7 +53,7 @@ namespace {
 
 Shape shape_of(const SpecimenRecipe& r) {
     Shape s;
-    s.kind = r.shape == "prism" ? ShapeKind::prism : ShapeKind::cylinder;
+    s.kind = r.shape == "prism" ? ShapeKind::prism : (r.shape == "plate" ? ShapeKind::plate : ShapeKind::cylinder);
     s.diameter = r.diameter;
     s.width = r.width;
     s.depth = r.depth;
@@ -72,11 +75,13 @@ std::vector<double> radii_of(const SpecimenRecipe& r) {
         }
         radii = graded_radii(n, curve, seed);
     }
+    const bool planar = shape_of(r).planar();
     double volume = 0.0;
     for (const double x : radii) {
-        volume += 4.0 / 3.0 * std::numbers::pi * x * x * x;
+        volume += planar ? std::numbers::pi * x * x : 4.0 / 3.0 * std::numbers::pi * x * x * x;
     }
-    const double scale = std::cbrt((1.0 - r.porosity) * shape_of(r).volume() / volume);
+    const double wanted = (1.0 - porosity_of(r)) * shape_of(r).volume() / volume;
+    const double scale = planar ? std::sqrt(wanted) : std::cbrt(wanted);
     for (double& x : radii) {
         x *= scale;
     }
@@ -84,6 +89,13 @@ std::vector<double> radii_of(const SpecimenRecipe& r) {
 }
 
 } // namespace
+
+double porosity_of(const SpecimenRecipe& r) {
+    if (r.porosity.word.empty()) {
+        return r.porosity.number;
+    }
+    return r.shape == "plate" ? 0.10 : 0.257; // near the thesis's meshes 2D-1 to 2D-4 and 3D-2 (table 5.3)
+}
 
 void check_recipe(const SpecimenRecipe& r, const std::string& source, const std::string& path, input::Problems& problems) {
     if (!r.file.empty()) {
@@ -102,8 +114,8 @@ void check_recipe(const SpecimenRecipe& r, const std::string& source, const std:
         }
     }
     // A cheap look at the largest sphere before making any: n copies of the mean would do, but the bounds decide.
-    const double volume = shape_of(r).volume() * (1.0 - r.porosity) / static_cast<double>(r.spheres);
-    const double typical = std::cbrt(0.75 * volume / std::numbers::pi);
+    const double volume = shape_of(r).volume() * (1.0 - porosity_of(r)) / static_cast<double>(r.spheres);
+    const double typical = shape_of(r).planar() ? std::sqrt(volume / std::numbers::pi) : std::cbrt(0.75 * volume / std::numbers::pi);
     const double room = 0.5 * std::min(shape_of(r).lateral_size(), r.height);
     if (typical * (r.grading.empty() ? r.largest_radius : 1.0) >= room) {
         problems.push_back({source, path + "/spheres", fmt::format("{} spheres, of about {:.3g} m radius", r.spheres, typical),

@@ -36,7 +36,7 @@ struct SpecimenRecipe {
     double depth = 0.150;
     double height = 0.300;
     std::int64_t spheres = 13500;
-    double porosity = 0.257;
+    input::NumberOrWord porosity{0.0, "auto"};
     double radius_deviation = 0.258;
     double smallest_radius = 0.4;
     double largest_radius = 1.6;
@@ -47,6 +47,9 @@ struct SpecimenRecipe {
 
 void declare(input::Visitor& v, GradingPoint& point);
 void declare(input::Visitor& v, SpecimenRecipe& recipe);
+
+/// Porosity that a recipe asks for: the number, or what "auto" stands for in its shape.
+double porosity_of(const SpecimenRecipe& recipe);
 
 /// What a recipe contradicts.
 void check_recipe(const SpecimenRecipe& recipe, const std::string& source, const std::string& path, input::Problems& problems);

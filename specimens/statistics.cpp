@@ -19,7 +19,7 @@ SpecimenStatistics statistics(const Specimen& s) {
     for (std::size_t k = 0; k < r.size(); ++k) {
         sum += r[k];
         squares += r[k] * r[k];
-        volume += 4.0 / 3.0 * std::numbers::pi * r[k] * r[k] * r[k];
+        volume += s.shape.planar() ? std::numbers::pi * r[k] * r[k] : 4.0 / 3.0 * std::numbers::pi * r[k] * r[k] * r[k];
         const Vec3 p = s.spheres.centre.at(k);
         out.outside += s.shape.depth_below_surface(p) < r[k] * (1.0 - 1e-3) ? 1 : 0;
         out.on_lower_end += p.z() <= 1.1 * r[k] ? 1 : 0;
@@ -46,8 +46,8 @@ SpecimenStatistics statistics(const Specimen& s) {
     out.touching = 2.0 * static_cast<double>(pairs.size()) / n;
     if (!pairs.empty()) {
         fabric /= static_cast<double>(pairs.size());
-        const Mat3 deviator = fabric - Mat3::Identity() * (fabric.trace() / 3.0);
-        out.fabric_deviator = std::sqrt(1.5 * deviator.squaredNorm());
+        const Mat3 isotropic = s.shape.planar() ? Mat3(Vec3(0.5, 0.0, 0.5).asDiagonal()) : Mat3(Mat3::Identity() / 3.0);
+        out.fabric_deviator = std::sqrt((s.shape.planar() ? 2.0 : 1.5) * (fabric - isotropic).squaredNorm());
     }
     return out;
 }

@@ -19,7 +19,7 @@ struct SpecimenStatistics {
     double porosity = 0.0;        ///< overlaps counted twice
     double touching = 0.0;        ///< mean number of touching neighbours
     double largest_overlap = 0.0; ///< over the smaller radius of the pair
-    double fabric_deviator = 0.0; ///< of the fabric tensor of touching pairs, sqrt(3/2 dev:dev); 0: isotropic
+    double fabric_deviator = 0.0; ///< of the fabric tensor of touching pairs, sqrt(3/2 dev:dev), in a plane sqrt(2 dev:dev); 0: isotropic
     std::size_t outside = 0;      ///< spheres that reach beyond the shape by more than a thousandth of their radius
     std::size_t on_lower_end = 0; ///< spheres within a tenth of their radius of z = 0
     std::size_t on_upper_end = 0;
@@ -34,7 +34,7 @@ std::vector<std::uint8_t> skin_spheres(const Specimen& specimen);
 struct Partition {
     double section = 0.0;  ///< mean over cuts across the axis of the summed projected bond areas, over the nominal section
     double interior = 0.0; ///< the same within the inner 60 % of the diameter
-    double filling = 0.0;  ///< sum(A d) / V; 3 fills space
+    double filling = 0.0;  ///< sum(A d) / V; 3 fills space, 2 a plane
 };
 
 /// Cuts the network by many planes across z, between a tenth and nine tenths of the height.

@@ -25,8 +25,8 @@ void save_specimen(const Specimen& s, const std::string& file) {
         h.put("z", s.spheres.centre.z);
         h.put("radius", s.spheres.radius);
         h.put("group", std::vector<std::int32_t>(s.group.begin(), s.group.end()));
-        h.put("shape", std::vector<double>{s.shape.kind == ShapeKind::prism ? 1.0 : 0.0, s.shape.diameter, s.shape.width, s.shape.depth,
-                                           s.shape.height});
+        h.put("shape",
+              std::vector<double>{static_cast<double>(s.shape.kind), s.shape.diameter, s.shape.width, s.shape.depth, s.shape.height});
         h.put_text("recipe", s.recipe.dump());
         const SpecimenStatistics st = statistics(s);
         h.put("mean_radius", st.mean_radius);
@@ -60,7 +60,10 @@ Specimen load_specimen(const std::string& file) {
         s.group.size() != n || shape.size() != 5) {
         throw std::runtime_error("arrays of unequal length");
     }
-    s.shape.kind = shape[0] != 0.0 ? ShapeKind::prism : ShapeKind::cylinder;
+    if (shape[0] != 0.0 && shape[0] != 1.0 && shape[0] != 2.0) {
+        throw std::runtime_error("a shape that this program does not know");
+    }
+    s.shape.kind = static_cast<ShapeKind>(static_cast<int>(shape[0]));
     s.shape.diameter = shape[1];
     s.shape.width = shape[2];
     s.shape.depth = shape[3];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 namespace proveta {
@@ -22,12 +23,26 @@ double polyhedron_ratio(double faces) {
     return ratio[above - 1] + t * (ratio[above] - ratio[above - 1]);
 }
 
-double contact_area(AreaRule rule, double r_i, double r_j, double weight_i, double weight_j) {
+double polygon_ratio(double sides) {
+    const double n = std::max(sides, 3.0);
+    return n * std::tan(pi / n) / pi;
+}
+
+double raw_area(AreaRule rule, const Spheres& spheres, std::size_t i, std::size_t j) {
+    const double r_i = spheres.radius[i];
+    const double r_j = spheres.radius[j];
     if (rule == AreaRule::minimum_radius) {
-        const double r = std::min(r_i, r_j);
-        return pi * r * r;
+        return spheres.section(r_i < r_j ? i : j);
     }
-    return 0.5 * (weight_i + weight_j) * pi * r_i * r_j;
+    if (!spheres.planar) {
+        return pi * r_i * r_j;
+    }
+    const double x = (r_j - r_i) / r_i; // the quotient loses its digits where the radii are nearly equal
+    return 2.0 * r_i * (std::fabs(x) < 1e-4 ? 1.0 + 0.5 * x - x * x / 12.0 : x / std::log1p(x));
+}
+
+double contact_area(AreaRule rule, const Spheres& spheres, std::size_t i, std::size_t j, double weight_i, double weight_j) {
+    return 0.5 * (weight_i + weight_j) * raw_area(rule, spheres, i, j);
 }
 
 Areas effective_areas(AreaRule rule, const Spheres& spheres, const std::vector<Pair>& pairs, const std::vector<std::uint8_t>& skin) {
@@ -44,10 +59,11 @@ Areas effective_areas(AreaRule rule, const Spheres& spheres, const std::vector<P
             const double d = (spheres.position.at(j) - spheres.position.at(i)).norm();
             const double r_i = spheres.radius[i];
             const double r_j = spheres.radius[j];
+            const double cone = raw_area(rule, spheres, i, j);
             reach[i] += 0.5 * (d + r_i - r_j);
             reach[j] += 0.5 * (d + r_j - r_i);
             for (const auto k : {i, j}) {
-                cones[k] += pi * r_i * r_j;
+                cones[k] += cone;
                 ++faces[k];
             }
         }
@@ -58,7 +74,9 @@ Areas effective_areas(AreaRule rule, const Spheres& spheres, const std::vector<P
                 continue;
             }
             const double mean_reach = reach[k] / faces[k];
-            out.weight[k] = polyhedron_ratio(faces[k]) * 4.0 * pi * mean_reach * mean_reach / cones[k];
+            const double surface = spheres.planar ? polygon_ratio(faces[k]) * 2.0 * pi * mean_reach
+                                                  : polyhedron_ratio(faces[k]) * 4.0 * pi * mean_reach * mean_reach;
+            out.weight[k] = surface / cones[k];
             if (!skin[k]) {
                 sum += out.weight[k];
                 count += 1.0;
@@ -77,7 +95,7 @@ Areas effective_areas(AreaRule rule, const Spheres& spheres, const std::vector<P
     for (const auto& [a, b] : pairs) {
         const auto i = static_cast<std::size_t>(a);
         const auto j = static_cast<std::size_t>(b);
-        out.pair.push_back(contact_area(rule, spheres.radius[i], spheres.radius[j], out.weight[i], out.weight[j]));
+        out.pair.push_back(contact_area(rule, spheres, i, j, out.weight[i], out.weight[j]));
     }
     return out;
 }

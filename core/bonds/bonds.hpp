@@ -65,8 +65,9 @@ struct BondingRule {
 std::vector<Pair> bonded_pairs(const Spheres& spheres, const BondingRule& rule, double& beta);
 
 /// Bonds the pairs: areas by each material's rule, stiffness (5.34), dashpot (5.15), laws of material pairs. The initial distance is the
-/// equilibrium. `weight` receives the per-sphere area weights for later contacts.
+/// equilibrium. `weight` receives the per-sphere area weights for later contacts. given: areas and weights that the rule `laguerre` takes,
+/// one a pair and one a sphere; pairs to which it gives no area are left out. Throws std::invalid_argument when they are missing.
 Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<Pair>& pairs,
-                 const std::vector<std::uint8_t>& skin, std::vector<double>& weight);
+                 const std::vector<std::uint8_t>& skin, std::vector<double>& weight, const Areas* given = nullptr);
 
 } // namespace proveta

@@ -9,7 +9,8 @@
 namespace proveta {
 
 /// Rule that gives the effective area of a bond (model: effective areas; thesis 5.1.3, 5.3).
-enum class AreaRule { minimum_radius, truncated_cone, virtual_polyhedron };
+/// laguerre areas are not computed here: `make_bonds` is given them.
+enum class AreaRule { minimum_radius, truncated_cone, virtual_polyhedron, laguerre };
 
 /// Law of loose contacts (thesis 2.5.1, 2.5.2).
 enum class ContactLaw : std::uint8_t { linear, hertz };

@@ -87,7 +87,7 @@ std::vector<Pair> bonded_pairs(const Spheres& spheres, const BondingRule& rule, 
 }
 
 Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<Pair>& pairs,
-                 const std::vector<std::uint8_t>& skin, std::vector<double>& weight) {
+                 const std::vector<std::uint8_t>& skin, std::vector<double>& weight, const Areas* given) {
     // Material pairs get a law each, in ascending order of their indices.
     auto key = [&](const Pair& p) {
         return std::minmax({spheres.material[static_cast<std::size_t>(p.i)], spheres.material[static_cast<std::size_t>(p.j)]});
@@ -113,26 +113,35 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
         const Material m = equivalent(materials[static_cast<std::size_t>(both.first)], materials[static_cast<std::size_t>(both.second)]);
         auto found = by_rule.find(m.area_rule);
         if (found == by_rule.end()) {
-            found = by_rule.emplace(m.area_rule, effective_areas(m.area_rule, spheres, pairs, skin)).first;
+            const bool takes = m.area_rule == AreaRule::laguerre;
+            if (takes && (given == nullptr || given->pair.size() != pairs.size() || given->weight.size() != spheres.size())) {
+                throw std::invalid_argument("the area rule takes areas that were not given");
+            }
+            found = by_rule.emplace(m.area_rule, takes ? *given : effective_areas(m.area_rule, spheres, pairs, skin)).first;
         }
         const Areas& areas = found->second;
         const auto law = static_cast<std::uint32_t>(b.laws.size());
         b.laws.push_back(bond_law(m));
         const std::size_t first = at;
-        for (std::size_t k = 0; k < members.size(); ++k, ++at) {
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const double area = areas.pair[mixed ? place.at(members[k]) : k];
+            if (area <= 0.0) {
+                continue;
+            }
             const auto i = static_cast<std::size_t>(members[k].i);
             const auto j = static_cast<std::size_t>(members[k].j);
             const double d = (spheres.position.at(j) - spheres.position.at(i)).norm();
             b.i[at] = members[k].i;
             b.j[at] = members[k].j;
             b.length[at] = d;
-            b.area[at] = m.area_factor * areas.pair[mixed ? place.at(members[k]) : k];
+            b.area[at] = m.area_factor * area;
             b.stiffness[at] = m.normal_factor * m.young_modulus * b.area[at] / d;
             const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
             b.dashpot[at] = 2.0 * m.local_damping * std::sqrt(reduced * b.stiffness[at]);
             b.damped = b.damped || m.local_damping > 0.0;
             b.moments = b.moments || m.bond.has_moments();
             b.forces[at].share_i = 0.5 * (d + spheres.radius[i] - spheres.radius[j]) / d;
+            ++at;
         }
         for (std::size_t k = first; k < at; k += bond_block) {
             b.blocks.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(at, k + bond_block)), law});
@@ -144,6 +153,7 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
             }
         }
     }
+    b.resize(at);
     if (b.moments) {
         b.rotation.resize(b.size());
         b.couple.resize(b.size());

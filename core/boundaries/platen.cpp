@@ -1,7 +1,6 @@
 #include "core/boundaries/platen.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/contacts/rolling.hpp"
 
@@ -19,7 +18,7 @@ Platen make_platen(const Spheres& spheres, double position, double inward, doubl
         const double r = spheres.radius[s];
         if (distance <= (1.0 + capping) * r) {
             p.capped[s] = distance;
-            discs += std::numbers::pi * r * r;
+            discs += spheres.section(s);
         }
     }
     p.area_weight = discs > 0.0 ? end_area / discs : 1.0;
@@ -75,11 +74,11 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
         const double r = spheres.radius[s];
         p.contact_distance.push_back(p.capped[s] > 0.0 ? p.capped[s] : r);
         if (p.face) {
-            p.law.push_back(wall_contact(pairs[material], r, spheres.mass[s]));
+            p.law.push_back(wall_contact(pairs[material], {r, spheres.mass[s], spheres.inertia[s]}, spheres.section(s)));
         } else {
             const Material& m = materials[material];
             LooseContact cap;
-            cap.k_n = m.normal_factor * m.young_modulus * p.area_weight * std::numbers::pi * r;
+            cap.k_n = m.normal_factor * m.young_modulus * p.area_weight * spheres.section(s) / r;
             cap.k_t = bond_law(m).shear_ratio * cap.k_n;
             cap.friction = p.friction;
             p.law.push_back(cap);

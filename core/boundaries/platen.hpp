@@ -36,7 +36,7 @@ struct Platen {
     VectorField viscous;                  ///< force of the dashpots on the sphere at the last step, N
     VectorField force;                    ///< on each listed sphere at the last step, N
     std::vector<double> capped;           ///< per sphere of the specimen: contact distance from the start, m; 0: none
-    double area_weight = 1.0;             ///< contact area over pi R^2
+    double area_weight = 1.0;             ///< contact area over the sphere's section
     Vec3 reaction = Vec3::Zero();         ///< force of the specimen on the platen, N
     int touching = 0;
 

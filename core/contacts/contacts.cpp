@@ -80,13 +80,11 @@ void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materi
     for (std::size_t k = 0; k < c.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.i[k]);
         const auto j = static_cast<std::size_t>(c.j[k]);
-        const double r_i = spheres.radius[i];
-        const double r_j = spheres.radius[j];
-        c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), r_i + r_j);
+        c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), spheres.radius[i] + spheres.radius[j]);
         const LoosePair& pair =
             pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
-        c.law[k] =
-            loose_contact(pair, r_i, spheres.mass[i], r_j, spheres.mass[j], contact_area(pair.area_rule, r_i, r_j, weight[i], weight[j]));
+        const auto body = [&](std::size_t s) { return LooseBody{spheres.radius[s], spheres.mass[s], spheres.inertia[s]}; };
+        c.law[k] = loose_contact(pair, body(i), body(j), contact_area(pair.area_rule, spheres, i, j, weight[i], weight[j]));
         c.rolls = c.rolls || c.law[k].rolling_arm > 0.0;
         c.forces[k].share_i = lever_share(spheres, c.i[k], c.j[k]);
     }

@@ -4,11 +4,20 @@
 
 namespace proveta {
 
+using std::numbers::pi;
+
 SphereView Spheres::view() const {
     return {{position.x.data(), position.y.data(), position.z.data()},
             {velocity.x.data(), velocity.y.data(), velocity.z.data()},
             {spin.x.data(), spin.y.data(), spin.z.data()}};
 }
+
+double Spheres::volume(std::size_t k) const {
+    const double r = radius[k];
+    return planar ? pi * r * r : 4.0 / 3.0 * pi * r * r * r;
+}
+
+double Spheres::section(std::size_t k) const { return planar ? 2.0 * radius[k] : pi * radius[k] * radius[k]; }
 
 void Spheres::add(const Vec3& centre, double r, double density, int cohesive_group, int material_index) {
     for (auto* field : {&position, &start}) {
@@ -17,10 +26,10 @@ void Spheres::add(const Vec3& centre, double r, double density, int cohesive_gro
     for (auto* field : {&velocity, &spin, &force, &torque, &external_force, &external_torque}) {
         field->push_back(Vec3::Zero());
     }
-    const double m = density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
     radius.push_back(r);
+    const double m = density * volume(radius.size() - 1);
     mass.push_back(m);
-    inertia.push_back(0.4 * m * r * r);
+    inertia.push_back((planar ? 0.5 : 0.4) * m * r * r);
     group.push_back(cohesive_group);
     material.push_back(material_index);
     id.push_back(static_cast<std::int64_t>(id.size()));

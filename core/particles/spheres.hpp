@@ -22,14 +22,20 @@ struct Spheres {
     VectorField start;            ///< centres at the start of the test, m
     std::vector<double> radius;   ///< m
     std::vector<double> mass;     ///< kg
-    std::vector<double> inertia;  ///< 2/5 m R^2, kg m^2
+    std::vector<double> inertia;  ///< 2/5 m R^2; of a disc 1/2 m R^2, kg m^2
     std::vector<int> group;       ///< cohesive group: only spheres of one group are bonded
     std::vector<int> material;    ///< index into the model's materials
     std::vector<std::int64_t> id; ///< number in the file or recipe that the sphere came from
+    bool planar = false;          ///< discs of unit thickness in the plane y = 0, about axis y; set before any is added
 
     [[nodiscard]] std::size_t size() const { return radius.size(); }
 
     [[nodiscard]] SphereView view() const;
+
+    /// Volume of a sphere, or of a disc of 1 m thickness, m3.
+    [[nodiscard]] double volume(std::size_t k) const;
+    /// Largest section, m2: pi R^2 of a sphere, 2 R of a disc of 1 m thickness.
+    [[nodiscard]] double section(std::size_t k) const;
 
     /// Appends a sphere at rest. centre and radius in m, density in kg/m3.
     void add(const Vec3& centre, double r, double density, int cohesive_group = 0, int material_index = 0);

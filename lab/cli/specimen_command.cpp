@@ -16,15 +16,10 @@ namespace proveta {
 
 namespace {
 
-// Statistics of the packing, and how well virtual-polyhedron areas fill it at a mean coordination of 10.
+// Statistics of the packing, and how well virtual-polyhedron areas fill it at the default coordination.
 void print_info(const Specimen& s) {
     const auto st = statistics(s);
-    fmt::print("shape                {} ", s.shape.name());
-    if (s.shape.kind == ShapeKind::cylinder) {
-        fmt::print("{:.5g} x {:.5g} mm\n", 1e3 * s.shape.diameter, 1e3 * s.shape.height);
-    } else {
-        fmt::print("{:.5g} x {:.5g} x {:.5g} mm\n", 1e3 * s.shape.width, 1e3 * s.shape.depth, 1e3 * s.shape.height);
-    }
+    fmt::print("shape                {}\n", s.shape.text());
     fmt::print("spheres              {}\n", st.spheres);
     fmt::print("mean radius          {:.4f} mm, from {:.4f} to {:.4f}\n", 1e3 * st.mean_radius, 1e3 * st.smallest_radius,
                1e3 * st.largest_radius);
@@ -36,13 +31,14 @@ void print_info(const Specimen& s) {
     fmt::print("spheres outside      {}\n", st.outside);
     fmt::print("spheres at the ends  {} below, {} above\n", st.on_lower_end, st.on_upper_end);
     Spheres spheres;
+    spheres.planar = s.shape.planar();
     for (std::size_t k = 0; k < s.size(); ++k) {
         spheres.add(s.spheres.centre.at(k), s.spheres.radius[k], 1.0, s.group[k]);
     }
     double beta = 0.0;
     const BondingInput standard;
     try {
-        const auto pairs = bonded_pairs(spheres, {0.0, standard.coordination}, beta);
+        const auto pairs = bonded_pairs(spheres, {0.0, coordination_of(standard, s.shape)}, beta);
         std::vector<double> weight;
         const Bonds bonds = make_bonds(spheres, {Material{}}, pairs, skin_spheres(s), weight);
         const Partition p = partition(s.shape, spheres, bonds);

@@ -16,7 +16,7 @@ Case damped_critical_step();
 Case cylinder_precession();
 
 // Chapter 5
-Case polygon_areas();
+Case regular_lattice();
 Case dempack_bond();
 Case two_body_energy();
 Case weak_equals_none();
@@ -27,5 +27,9 @@ Case rate_convergence();
 Case hydrostatic_criterion();
 Case objectivity();
 Case released_law();
+Case polygon_areas();
+Case area_models();
+Case area_partition();
+Case elastic_study();
 
 } // namespace proveta::verification

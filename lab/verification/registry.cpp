@@ -6,6 +6,7 @@ namespace proveta::verification {
 const std::vector<Case>& cases() {
     // clang-format off
     static const std::vector<Case> all{
+        // chapter 2
         restitution(),
         rolling_resistance(),
         parabolic_flight(),
@@ -14,12 +15,17 @@ const std::vector<Case>& cases() {
         sphere_between_plates(),
         damped_critical_step(),
         cylinder_precession(),
-        polygon_areas(),
+        // chapter 5
+        regular_lattice(),
         dempack_bond(),
         two_body_energy(),
         weak_equals_none(),
         bonded_cantilever(),
         released_law(),
+        polygon_areas(),
+        area_models(),
+        area_partition(),
+        elastic_study(),
         mesh_convergence(),
         step_convergence(),
         rate_convergence(),

@@ -10,6 +10,7 @@
 #include "specimens/grading.hpp"
 #include "specimens/hdf5_file.hpp"
 #include "specimens/import.hpp"
+#include "specimens/lattice.hpp"
 #include "specimens/statistics.hpp"
 #include "specimens/storage.hpp"
 
@@ -105,6 +106,27 @@ TEST_CASE("specimens survive storage, and what is not one is refused") {
     CHECK_THROWS(load_specimen(folder.file("other.h5")));
     fs::resize_file(folder.file("s.h5"), fs::file_size(folder.file("s.h5")) / 2);
     CHECK_THROWS(load_specimen(folder.file("s.h5")));
+}
+
+TEST_CASE("a plate is flat, stored as a plate, and a lattice is regular") {
+    const TemporaryFolder folder;
+    SpecimenRecipe r;
+    r.shape = "plate";
+    r.width = 0.05;
+    r.height = 0.1;
+    r.spheres = 200;
+    const Specimen s = make_specimen(r);
+    CHECK(s.spheres.centre.y == std::vector<double>(200, 0.0));
+    CHECK(statistics(s).porosity == Approx(0.10));
+    CHECK(statistics(s).fabric_deviator < 0.1);
+    save_specimen(s, folder.file("plate.h5"));
+    CHECK(load_specimen(folder.file("plate.h5")).shape.planar());
+    CHECK(s.shape.section() == 0.05);
+    CHECK(s.shape.inner(0.5, 0.5).volume() == Approx(0.25 * 0.005));
+    const Specimen hexagonal = hexagonal_lattice(4, 3, 0.5);
+    CHECK(hexagonal.size() == 11);
+    CHECK(statistics(hexagonal).outside == 0);
+    CHECK(statistics(square_lattice(13, 25, 0.002)).porosity == Approx(1.0 - 0.25 * 3.14159265358979));
 }
 
 TEST_CASE("sphere meshes of other programs are read, with any axis") {
