@@ -3,20 +3,20 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace proveta {
 
 std::vector<double> tributary_volumes(const Spheres& s, const Bonds& b) {
     std::vector<double> volume(s.size(), 0.0);
+    const double dimensions = s.planar ? 2.0 : 3.0; // of a cone's height
     for (std::size_t k = 0; k < b.size(); ++k) {
         const double share = b.forces[k].share_i;
-        volume[static_cast<std::size_t>(b.i[k])] += b.area[k] * share * b.length[k] / 3.0;
-        volume[static_cast<std::size_t>(b.j[k])] += b.area[k] * (1.0 - share) * b.length[k] / 3.0;
+        volume[static_cast<std::size_t>(b.i[k])] += b.area[k] * share * b.length[k] / dimensions;
+        volume[static_cast<std::size_t>(b.j[k])] += b.area[k] * (1.0 - share) * b.length[k] / dimensions;
     }
     for (std::size_t k = 0; k < s.size(); ++k) {
         if (volume[k] <= 0.0) {
-            volume[k] = 4.0 / 3.0 * std::numbers::pi * std::pow(s.radius[k], 3);
+            volume[k] = s.volume(k);
         }
     }
     return volume;
