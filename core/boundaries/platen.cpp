@@ -75,7 +75,7 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
         const double r = spheres.radius[s];
         p.contact_distance.push_back(p.capped[s] > 0.0 ? p.capped[s] : r);
         if (p.face) {
-            p.law.push_back(wall_contact(pairs[material], r, spheres.mass[s]));
+            p.law.push_back(wall_contact(pairs[material], {r, spheres.mass[s], spheres.inertia[s]}, std::numbers::pi * r * r));
         } else {
             const Material& m = materials[material];
             LooseContact cap;

@@ -85,8 +85,8 @@ void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materi
         c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), r_i + r_j);
         const LoosePair& pair =
             pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
-        c.law[k] =
-            loose_contact(pair, r_i, spheres.mass[i], r_j, spheres.mass[j], contact_area(pair.area_rule, r_i, r_j, weight[i], weight[j]));
+        c.law[k] = loose_contact(pair, {r_i, spheres.mass[i], spheres.inertia[i]}, {r_j, spheres.mass[j], spheres.inertia[j]},
+                                 contact_area(pair.area_rule, r_i, r_j, weight[i], weight[j]));
         c.rolls = c.rolls || c.law[k].rolling_arm > 0.0;
         c.forces[k].share_i = lever_share(spheres, c.i[k], c.j[k]);
     }

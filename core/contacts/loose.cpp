@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/contacts/restitution.hpp"
 
@@ -55,41 +54,39 @@ LoosePair wall_pair(const Material& sphere, const Material& wall, double frictio
     return p;
 }
 
-LooseContact loose_contact(const LoosePair& pair, double r_i, double m_i, double r_j, double m_j, double area) {
+LooseContact loose_contact(const LoosePair& pair, const LooseBody& i, const LooseBody& j, double area) {
     LooseContact c;
     c.law = pair.law;
     c.tension = pair.tension;
     c.friction = pair.friction;
-    c.rolling_arm = pair.rolling * std::min(r_i, r_j);
-    const double inertia_i = 0.4 * m_i * r_i * r_i;
-    const double inertia_j = 0.4 * m_j * r_j * r_j;
-    c.reduced_inertia = inertia_i * inertia_j / (inertia_i + inertia_j);
+    c.rolling_arm = pair.rolling * std::min(i.radius, j.radius);
+    c.reduced_inertia = i.inertia * j.inertia / (i.inertia + j.inertia);
     if (pair.law == ContactLaw::hertz) {
-        const double root = std::sqrt(r_i * r_j / (r_i + r_j));
+        const double root = std::sqrt(i.radius * j.radius / (i.radius + j.radius));
         c.k_n = 2.0 * pair.young * root;
         c.k_t = 8.0 * pair.shear * root;
     } else {
-        c.k_n = pair.axial * area / (r_i + r_j);
+        c.k_n = pair.axial * area / (i.radius + j.radius);
         c.k_t = pair.shear_ratio * c.k_n;
     }
-    return damped(c, pair.damping, m_i * m_j / (m_i + m_j));
+    return damped(c, pair.damping, i.mass * j.mass / (i.mass + j.mass));
 }
 
-LooseContact wall_contact(const LoosePair& pair, double r, double m) {
+LooseContact wall_contact(const LoosePair& pair, const LooseBody& sphere, double section) {
     LooseContact c;
     c.law = pair.law;
     c.tension = pair.tension;
     c.friction = pair.friction;
-    c.rolling_arm = pair.rolling * r;
-    c.reduced_inertia = 0.4 * m * r * r;
+    c.rolling_arm = pair.rolling * sphere.radius;
+    c.reduced_inertia = sphere.inertia;
     if (pair.law == ContactLaw::hertz) {
-        c.k_n = 2.0 * pair.young * std::sqrt(r);
-        c.k_t = 8.0 * pair.shear * std::sqrt(r);
+        c.k_n = 2.0 * pair.young * std::sqrt(sphere.radius);
+        c.k_t = 8.0 * pair.shear * std::sqrt(sphere.radius);
     } else {
-        c.k_n = 0.5 * pair.axial * std::numbers::pi * r;
+        c.k_n = pair.axial * section / (2.0 * sphere.radius);
         c.k_t = pair.shear_ratio * c.k_n;
     }
-    return damped(c, pair.damping, m);
+    return damped(c, pair.damping, sphere.mass);
 }
 
 Stiffness stiffness_at(const LooseContact& c, double overlap) {

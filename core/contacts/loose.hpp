@@ -40,11 +40,17 @@ LoosePair loose_pair(const Material& a, const Material& b);
 /// so its shear modulus counts as infinite (2.41d). A wall of infinite Young's modulus is rigid.
 LoosePair wall_pair(const Material& sphere, const Material& wall, double friction);
 
-/// Contact of spheres with radii in m, masses in kg; area in m2 is that of the linear law, over the distance at touch.
-LooseContact loose_contact(const LoosePair& pair, double r_i, double m_i, double r_j, double m_j, double area);
+/// What a contact needs to know of a sphere: m, kg, kg m2.
+struct LooseBody {
+    double radius, mass, inertia;
+};
 
-/// Contact of a sphere with a wall (2.41). The linear law sees the wall as a mirror image made of the wall's material.
-LooseContact wall_contact(const LoosePair& pair, double r, double m);
+/// Contact of two spheres; area in m2 is that of the linear law, over the distance at touch.
+LooseContact loose_contact(const LoosePair& pair, const LooseBody& i, const LooseBody& j, double area);
+
+/// Contact of a sphere of the given section, m2, with a wall (2.41). The linear law sees the wall as a mirror image made of the wall's
+/// material.
+LooseContact wall_contact(const LoosePair& pair, const LooseBody& sphere, double section);
 
 /// One step; see `linear::advance`.
 inline contact::Response<double> advance(const LooseContact& c, double overlap, double approach, double dt, const double (&slip)[3],

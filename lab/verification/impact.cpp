@@ -91,7 +91,7 @@ std::vector<report::Plot> impact_plots(Impact impact, double duration, const Con
                                        double (*exact_speed)(double)) {
     report::Plot depth{"Overlap in an impact, " + law + ", ten steps a contact (" + figures[0] + ")", "time [ms]", "overlap [mm]", {}, {}};
     report::Plot speed{"Speed of approach in the same impact (" + figures[1] + ")", "time [ms]", "speed of approach [m/s]", {}, {}};
-    report::Plot error{"Errors over steps (" + figures[2] + ")", "log10 of time step [s]", "log10 of relative error", {}, {}};
+    report::Plot error{"Errors over steps (" + figures[2] + ")", "log10 of steps a contact, t_c/dt", "log10 of relative error", {}, {}};
     report::Curve exact_depth{"exact", {}, {}, "#111111"};
     report::Curve exact_rate = exact_depth;
     for (int k = 0; k <= 100; ++k) {
@@ -119,7 +119,7 @@ std::vector<report::Plot> impact_plots(Impact impact, double duration, const Con
         for (const bool of_depth : {true, false}) {
             report::Curve e{std::string(schemes[k].name) + (of_depth ? ", overlap" : ", exit speed"), {}, {}, schemes[k].colour};
             for (std::size_t n = 0; n < errors.step.size(); ++n) {
-                e.x.push_back(std::log10(errors.step[n]));
+                e.x.push_back(std::log10(duration / errors.step[n]));
                 e.y.push_back(std::log10(std::max((of_depth ? errors.depth : errors.speed)[k][n], 1e-16)));
             }
             error.curves.push_back(e);
