@@ -219,8 +219,8 @@ TEST_CASE("materials: a contact of two is symmetric, takes the lower friction an
     CHECK(ab.axial == ba.axial);
     CHECK(ab.damping == ba.damping);
     CHECK(ab.rolling == 0.01);
-    const LooseContact one = loose_contact(ab, 0.01, 0.01, 0.02, 0.08, 0.0);
-    const LooseContact two = loose_contact(ba, 0.02, 0.08, 0.01, 0.01, 0.0);
+    const LooseContact one = loose_contact(ab, {0.01, 0.01, 4e-7}, {0.02, 0.08, 1.28e-5}, 0.0);
+    const LooseContact two = loose_contact(ba, {0.02, 0.08, 1.28e-5}, {0.01, 0.01, 4e-7}, 0.0);
     CHECK(one.k_n == two.k_n);
     CHECK(one.rolling_arm == 0.01 * 0.01);
     CHECK(one.reduced_inertia == two.reduced_inertia);
@@ -233,7 +233,7 @@ TEST_CASE("materials: a contact of two is symmetric, takes the lower friction an
     CHECK(wall.shear == Approx(1e7 / 2.4 / 1.8)); // (2.41d)
     CHECK(wall.axial == Approx(2e7));
     CHECK(wall.friction == 0.7);
-    CHECK(wall_contact(wall, 0.01, 0.02).k_n == Approx(2.0 * 1e7 / 0.96 * 0.1));
+    CHECK(wall_contact(wall, {0.01, 0.02, 8e-7}, 3e-4).k_n == Approx(2.0 * 1e7 / 0.96 * 0.1));
 }
 
 TEST_CASE("heap: the step bound counts loose contacts, thread counts change no bit, a checkpoint goes on bit for bit") {
