@@ -131,7 +131,8 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     std::vector<Pair> pairs;
     try {
         pairs = bonded_pairs(spheres,
-                             {deck.bonding.interaction_range.number, automatic ? coordination_of(deck.bonding, bench.specimen.shape) : 0.0},
+                             {deck.bonding.interaction_range.number, automatic ? coordination_of(deck.bonding, bench.specimen.shape) : 0.0,
+                              deck.bonding.nearest == "absolute"},
                              bench.beta);
     } catch (const std::runtime_error& e) {
         fail("/bonding/coordination", fmt::format("{:.4g}; {}", coordination_of(deck.bonding, bench.specimen.shape), e.what()),

@@ -27,6 +27,9 @@ void declare(input::Visitor& v, BondingInput& b) {
                      between(0, 1), "beta: spheres are bonded when their distance is at most (1 + beta)(R_i + R_j)");
     v.number_or_word("coordination", b.coordination, {{"auto", "10; in a plate 5.1"}}, Unit::none, {0.0, 30.0, true, false},
                      "mean number of bonds a sphere, when interaction_range is \"auto\"");
+    v.choice("nearest", b.nearest,
+             {{"relative", "gap over the sum of radii"}, {"absolute", "gap itself, as the released DEMpack code does"}},
+             "which pairs are the nearest, when interaction_range is \"auto\"");
 }
 
 double coordination_of(const BondingInput& b, const Shape& shape) {

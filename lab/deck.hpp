@@ -22,6 +22,7 @@ struct MaterialRegion {
 };
 
 struct BondingInput {
+    std::string nearest = "relative";
     input::NumberOrWord interaction_range{0.0, "auto"};
     input::NumberOrWord coordination{0.0, "auto"};
 };

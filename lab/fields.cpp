@@ -5,47 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "core/averaged_stress.hpp"
+#include "lab/fragments.hpp"
 
 namespace proveta {
-
-std::vector<int> fragments(const Model& model) {
-    const std::size_t n = model.spheres.size();
-    std::vector<std::size_t> parent(n);
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t k) {
-        while (parent[k] != k) {
-            parent[k] = parent[parent[k]];
-            k = parent[k];
-        }
-        return k;
-    };
-    for (std::size_t b = 0; b < model.bonds.size(); ++b) {
-        if (model.bonds.mode[b] == 0) {
-            parent[root(static_cast<std::size_t>(model.bonds.i[b]))] = root(static_cast<std::size_t>(model.bonds.j[b]));
-        }
-    }
-    std::vector<std::size_t> size(n, 0);
-    for (std::size_t k = 0; k < n; ++k) {
-        ++size[root(k)];
-    }
-    std::vector<std::size_t> roots;
-    for (std::size_t k = 0; k < n; ++k) {
-        if (size[k] > 0) {
-            roots.push_back(k);
-        }
-    }
-    std::stable_sort(roots.begin(), roots.end(), [&](auto a, auto b) { return size[a] > size[b]; });
-    std::vector<int> number(n, 0);
-    for (std::size_t k = 0; k < roots.size(); ++k) {
-        number[roots[k]] = static_cast<int>(k);
-    }
-    std::vector<int> out(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        out[k] = number[root(k)];
-    }
-    return out;
-}
 
 namespace {
 
@@ -53,28 +17,19 @@ namespace {
 void sphere_states(const Bench& bench, std::vector<double>& stress, std::vector<double>& damage) {
     const Model& m = *bench.model;
     const std::size_t n = m.spheres.size();
-    std::vector<Mat3> sum(n, Mat3::Zero());
+    std::vector<double> volume(n);
     damage.assign(n, 0.0);
-    std::vector<double> bonds(n, 0.0);
-    for (std::size_t b = 0; b < m.bonds.size(); ++b) {
-        const auto i = static_cast<std::size_t>(m.bonds.i[b]);
-        const auto j = static_cast<std::size_t>(m.bonds.j[b]);
-        const Vec3 to = m.spheres.position.at(j) - m.spheres.position.at(i);
-        const Mat3 part = -Vec3(m.bonds.forces[b].force) * to.transpose();
-        sum[i] += m.bonds.forces[b].share_i * part;
-        sum[j] += (1.0 - m.bonds.forces[b].share_i) * part;
-        for (const auto k : {i, j}) {
-            damage[k] += m.bonds.mode[b] != 0 ? 1.0 : 0.0;
-            bonds[k] += 1.0;
-        }
-    }
-    const double solid = 1.0 - bench.statistics.porosity;
-    stress.clear();
     for (std::size_t k = 0; k < n; ++k) {
-        const Mat3 s = sum[k] * (solid / m.spheres.volume(k));
-        const Mat3 t = 0.5 * (s + s.transpose());
+        volume[k] = m.spheres.volume(k) / (1.0 - bench.statistics.porosity);
+        const auto& in = m.bonds.incidence;
+        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
+            damage[k] += m.bonds.mode[in.entry[e] >> 1] != 0 ? 1.0 : 0.0;
+        }
+        damage[k] /= std::max(1.0, static_cast<double>(in.offset[k + 1] - in.offset[k]));
+    }
+    stress.clear();
+    for (const Mat3& t : sphere_stresses(m.spheres, m.bonds, m.contacts, m.platens, m.pressures, volume)) {
         stress.insert(stress.end(), {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)});
-        damage[k] /= std::max(1.0, bonds[k]);
     }
 }
 

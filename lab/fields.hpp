@@ -10,9 +10,6 @@
 
 namespace proveta {
 
-/// Number of the fragment that each sphere belongs to: connected by unfailed bonds, numbered by size, 0 the largest.
-std::vector<int> fragments(const Model& model);
-
 /// Spheres with radius, displacement, velocity, Love-Weber stress (compression positive: xx, yy, zz, xy, yz, zx), damage (share of its
 /// bonds that failed), fragment, group and material. The model's last step must have measured.
 report::Geometry sphere_fields(const Bench& bench);

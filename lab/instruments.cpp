@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/fragments.hpp"
+
 namespace proveta {
 
 Instruments::Instruments(const Bench& bench) {
@@ -10,6 +12,7 @@ Instruments::Instruments(const Bench& bench) {
     const Spheres& s = bench.model->spheres;
     height_ = shape.height;
     section_ = shape.section();
+    off_ = detached_spheres(*bench.model);
     inner_ = shape.inner(0.6, 0.6);
     // Middle gauge: as long as the specimen is wide, at most half its height, between two bands of three mean radii.
     const double length = std::min(shape.lateral_size(), 0.5 * shape.height);
@@ -36,22 +39,29 @@ Instruments::Instruments(const Bench& bench) {
     }
 }
 
-double Instruments::mean_rise(const Model& model, const Band& band) {
+double Instruments::mean_rise(const Model& model, const Band& band) const {
     double sum = 0.0;
+    double count = 0.0;
     for (const auto k : band.spheres) {
-        sum += model.spheres.position.z[k] - model.spheres.start.z[k];
+        if (off_[k] == 0) {
+            sum += model.spheres.position.z[k] - model.spheres.start.z[k];
+            count += 1.0;
+        }
     }
-    return sum / std::max<double>(1.0, static_cast<double>(band.spheres.size()));
+    return sum / std::max(1.0, count);
 }
 
 double Instruments::nominal_strain(const Model& model) const {
     return 1.0 - (model.platens[1].position - model.platens[0].position) / height_;
 }
 
-Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) {
+Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) const {
     Mat3 sum = Mat3::Zero();
     const Bonds& b = model.bonds;
     const auto add = [&](std::size_t i, std::size_t j, const Vec3& force) {
+        if (off_[i] != 0 || off_[j] != 0) {
+            return;
+        }
         const Vec3 at_i = model.spheres.position.at(i);
         const Vec3 at_j = model.spheres.position.at(j);
         const double inside = region.fraction_inside(at_i, at_j);
@@ -113,17 +123,25 @@ report::Table Instruments::empty_energy() const {
     return t;
 }
 
-void Instruments::sample(const Bench& bench, report::Table& curve, report::Table& energy) const {
+void Instruments::sample(const Bench& bench, report::Table& curve, report::Table& energy) {
     const Model& m = *bench.model;
+    if (m.broken() != off_at_) {
+        off_ = detached_spheres(m);
+        off_at_ = m.broken();
+    }
     const double bottom = -m.platens[0].reaction.z();
     const double top = m.platens[1].reaction.z();
     const double strain = nominal_strain(m);
     const double gauge = (mean_rise(m, lower_) - mean_rise(m, upper_)) / (upper_.height - lower_.height);
     double girth = 0.0;
+    double on_girth = 0.0;
     for (std::size_t k = 0; k < girth_.size(); ++k) {
-        girth += 1.0 - std::hypot(m.spheres.position.x[girth_[k]], m.spheres.position.y[girth_[k]]) / girth_radius_[k];
+        if (off_[girth_[k]] == 0) {
+            girth += 1.0 - std::hypot(m.spheres.position.x[girth_[k]], m.spheres.position.y[girth_[k]]) / girth_radius_[k];
+            on_girth += 1.0;
+        }
     }
-    girth /= std::max<double>(1.0, static_cast<double>(girth_.size()));
+    girth /= std::max(1.0, on_girth);
     const Mat3 inner = mean_stress(m, inner_);
     const double stress = 0.5 * (bottom + top) / section_;
     curve.rows.push_back({m.time(), strain, stress, stress, gauge, girth, gauge + (m.spheres.planar ? 1.0 : 2.0) * girth, bottom, top,

@@ -8,7 +8,8 @@
 
 namespace proveta {
 
-/// Gauges on the specimen, made once and read at every sample. Strains and stresses are compression-positive.
+/// Gauges on the specimen, made once and read at every sample. Strains and stresses are compression-positive. Spheres that have come off
+/// the specimen (`detached_spheres`) are left out of all averages.
 class Instruments {
   public:
     explicit Instruments(const Bench& bench);
@@ -18,7 +19,7 @@ class Instruments {
     [[nodiscard]] report::Table empty_energy() const;
 
     /// Adds a row to each table. The model's last step must have measured.
-    void sample(const Bench& bench, report::Table& curve, report::Table& energy) const;
+    void sample(const Bench& bench, report::Table& curve, report::Table& energy);
 
     /// Nominal axial strain from the platens' travel; cheap.
     [[nodiscard]] double nominal_strain(const Model& model) const;
@@ -27,14 +28,14 @@ class Instruments {
     void count(FailureMode mode) { ++(mode == FailureMode::tension ? broken_tension_ : broken_shear_); }
 
     /// Love-Weber stress averaged over an inner region, Pa: (1/V) sum of force times branch, each branch with its fraction inside.
-    [[nodiscard]] static Mat3 mean_stress(const Model& model, const Shape::Region& region);
+    [[nodiscard]] Mat3 mean_stress(const Model& model, const Shape::Region& region) const;
 
   private:
     struct Band {
         std::vector<std::size_t> spheres;
         double height = 0.0; ///< mean z at the start, m
     };
-    [[nodiscard]] static double mean_rise(const Model& model, const Band& band);
+    [[nodiscard]] double mean_rise(const Model& model, const Band& band) const;
 
     double height_ = 0.0;
     double section_ = 0.0;
@@ -42,6 +43,8 @@ class Instruments {
     std::vector<std::size_t> girth_;   // lateral skin at mid-height
     std::vector<double> girth_radius_; // their distance from the axis at the start, m
     Shape::Region inner_;
+    std::vector<std::uint8_t> off_; // detached spheres
+    std::size_t off_at_ = 0;        // number of failed bonds that it was found for
     std::size_t broken_tension_ = 0;
     std::size_t broken_shear_ = 0;
 };

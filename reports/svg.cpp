@@ -42,6 +42,45 @@ struct Axis {
     [[nodiscard]] double at(double v) const { return (v - low) / (high - low); }
 };
 
+// Frame of the curves in the picture.
+struct Frame {
+    double left, top, right, bottom;
+};
+
+// Where the key stands: the first of the four corners that the fewest points of the curves run through. Left end and first baseline.
+template <class X, class Y> std::pair<double, double> key_place(const Plot& plot, const X& px, const Y& py, const Frame& f) {
+    std::size_t longest = 0;
+    for (const auto& c : plot.curves) {
+        longest = std::max(longest, c.name.size());
+    }
+    const double wide = 40.0 + 6.6 * static_cast<double>(longest);
+    const double high = 17.0 * static_cast<double>(plot.curves.size()) + 8.0;
+    const Frame corners[] = {{f.left + 6, f.top, f.left + 6 + wide, f.top + high},
+                             {f.right - wide, f.top, f.right, f.top + high},
+                             {f.right - wide, f.bottom - high, f.right, f.bottom},
+                             {f.left + 6, f.bottom - high, f.left + 6 + wide, f.bottom}};
+    const Frame* best = corners;
+    std::size_t fewest = static_cast<std::size_t>(-1);
+    for (const auto& corner : corners) {
+        std::size_t inside = 0;
+        for (const auto& c : plot.curves) {
+            for (std::size_t k = 1; k < c.x.size(); ++k) {
+                for (int part = 0; part < 8; ++part) { // along the line, not only at its ends
+                    const double t = part / 8.0;
+                    const double x = px(c.x[k - 1] + t * (c.x[k] - c.x[k - 1]));
+                    const double y = py(c.y[k - 1] + t * (c.y[k] - c.y[k - 1]));
+                    inside += x > corner.left && x < corner.right && y > corner.top && y < corner.bottom ? 1 : 0;
+                }
+            }
+        }
+        if (inside < fewest) {
+            fewest = inside;
+            best = &corner;
+        }
+    }
+    return {best->left + 6, best->top + 14};
+}
+
 // White to blue to dark, readable in print.
 std::string shade(double t) {
     t = std::clamp(t, 0.0, 1.0);
@@ -91,20 +130,8 @@ std::string to_svg(const Plot& plot) {
                        height - 10, escape(plot.x_title));
     out += fmt::format("<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n",
                        0.5 * (top + height - bottom), escape(plot.y_title));
-    // The key stands in the corner that fewer points run through.
-    const double key_height = 17.0 * static_cast<double>(plot.curves.size());
-    std::size_t in_corner[2] = {0, 0};
-    for (const auto& c : plot.curves) {
-        for (std::size_t k = 0; k < c.x.size(); ++k) {
-            const double x = px(c.x[k]);
-            const double y = py(c.y[k]);
-            in_corner[0] += x < left + 170 && y < top + key_height + 10 ? 1 : 0;
-            in_corner[1] += x > width - right - 190 && y > height - bottom - key_height - 10 ? 1 : 0;
-        }
-    }
-    const bool upper_left = in_corner[0] <= in_corner[1];
-    const double key_left = upper_left ? left + 12 : width - right - 180;
-    double key = upper_left ? top + 14 : height - bottom - key_height + 5;
+    const auto [key_left, key_top] = key_place(plot, px, py, {left, top, width - right, height - bottom});
+    double key = key_top;
     for (const auto& c : plot.curves) {
         std::string points;
         for (std::size_t k = 0; k < c.x.size(); ++k) {

@@ -57,10 +57,12 @@ struct Bonds {
 /// Which spheres are bonded, and over what distance.
 struct BondingRule {
     double beta = 0.15;        ///< pairs with d <= (1 + beta)(R_i + R_j)
-    double coordination = 0.0; ///< when positive, beta is iterated until the mean number of bonds a sphere is this
+    double coordination = 0.0; ///< when positive, the nearest pairs are bonded until the mean number of bonds a sphere is this
+    bool absolute = false;     ///< nearest by gap in m, as the released DEMpack code does, not by gap over the sum of radii
 };
 
-/// Pairs to bond: same cohesive group, within reach. Overlapping pairs of a group are always among them. `beta` returns the value used.
+/// Pairs to bond: same cohesive group, within reach. Overlapping pairs of a group are always among them. `beta` returns the largest gap
+/// over the sum of radii that was bonded.
 /// Throws std::runtime_error when a wished coordination cannot be reached with beta below 1.
 std::vector<Pair> bonded_pairs(const Spheres& spheres, const BondingRule& rule, double& beta);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/bonds/bonds.hpp"
@@ -65,20 +66,29 @@ std::vector<Pair> bonded_pairs(const Spheres& spheres, const BondingRule& rule, 
     }
     // The wished number of bonds is met exactly (up to one bond) by taking the pairs with the smallest gaps.
     const auto wanted = static_cast<std::size_t>(std::llround(0.5 * rule.coordination * static_cast<double>(spheres.size())));
+    const double mean_radius =
+        std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / std::max<double>(1.0, static_cast<double>(spheres.size()));
+    const auto gap = [&](const Pair& p) {
+        const double sum = spheres.radius[static_cast<std::size_t>(p.i)] + spheres.radius[static_cast<std::size_t>(p.j)];
+        return needed_beta(spheres, p) * (rule.absolute ? sum : 1.0);
+    };
     for (const double reach : {0.2, 0.4, 0.8}) {
-        auto pairs = same_group(spheres, find_pairs(spheres.position, spheres.radius, 1.0 + reach, 0.0));
+        auto pairs = same_group(spheres, rule.absolute ? find_pairs(spheres.position, spheres.radius, 1.0, 2.0 * reach * mean_radius)
+                                                       : find_pairs(spheres.position, spheres.radius, 1.0 + reach, 0.0));
         std::vector<double> needed(pairs.size());
-        std::transform(pairs.begin(), pairs.end(), needed.begin(), [&](const Pair& p) { return needed_beta(spheres, p); });
+        std::transform(pairs.begin(), pairs.end(), needed.begin(), gap);
         if (wanted == 0 || pairs.size() < wanted) {
             continue;
         }
         auto sorted = needed;
         std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(wanted - 1), sorted.end());
-        beta = std::max(sorted[wanted - 1], 0.0); // overlapping pairs are always bonded
+        const double widest = std::max(sorted[wanted - 1], 0.0); // overlapping pairs are always bonded
         std::vector<Pair> kept;
+        beta = 0.0;
         for (std::size_t k = 0; k < pairs.size(); ++k) {
-            if (needed[k] <= beta) {
+            if (needed[k] <= widest) {
                 kept.push_back(pairs[k]);
+                beta = std::max(beta, needed_beta(spheres, pairs[k]));
             }
         }
         return kept;

@@ -1,5 +1,5 @@
 // The cohesive bond as the released DEMpack code computes it, for comparison with that code. It differs from the thesis in most branches
-// and is kept with its faults: unloading jumps, it is not energy-consistent, and a failed bond has no friction.
+// and is kept with its faults: unloading jumps, it is not energy-consistent, and a failed bond keeps pulling sideways.
 //
 // Reference: Kratos Multiphysics, DEMApplication, constitutive law DEM_Dempack (October 2019), read as a description; symbols as in
 // dempack_law.hpp.
@@ -11,7 +11,7 @@
 //   Shear        increments of slope k_t times the ratio of the active branch of compression to k_n, or (1 - d) in tension. Once over
 //                tau_f A + mu_s max(F_n, 0) it is latched: held at the limit times 1 - D, D the slip since then over c_s u_tau, u_tau =
 //                limit / k_t; D >= 1, or c_s = 0, is failure.
-//   After failure  compression only, no shear.
+//   After failure  compression only; no friction, but the shear force of that moment stays for good, turning with the bond.
 #pragma once
 
 #include <cmath>
@@ -114,7 +114,7 @@ inline dempack::Response<T> advance(const Parameters& p, const T& k_n, const T& 
     const auto broken = torn || sheared;
     const T held = select(latched, (one - share) * limit / max(trial, tiny), one);
     for (int c = 0; c < 3; ++c) {
-        s.u_t[c] = select(broken, zero, s.u_t[c] * held);
+        s.u_t[c] = select(torn, old[c], s.u_t[c] * held);
         r.shear[c] = k_t * s.u_t[c];
     }
     r.normal = normal_force(p, k_n, area, kin.shortening, s.u_p, s.d_n, broken);

@@ -30,6 +30,8 @@ class Ucs : public Protocol {
         v.number_or_word("ramp", ramp_, {{"auto", "the time in which a wave crosses the specimen twenty times"}}, input::Unit::time,
                          input::at_least(0), "time in which the platens reach their speed");
         declare_friction(v, friction_);
+        v.number("platen_stiffness", platen_stiffness_, input::Unit::none, {0.0, 10.0, true, false},
+                 "stiffness of the contact between platen and specimen over the one with which the platens add no compliance");
         v.section("stop", stop_, "what ends the test");
         v.refused("confining_pressure", "an unconfined test has free sides; confinement belongs to a triaxial test");
     }
@@ -45,8 +47,12 @@ class Ucs : public Protocol {
     [[nodiscard]] std::vector<Platen> platens(const Spheres& spheres, const Shape& shape) const override {
         constexpr double capping = 0.1; // of a radius: what an end's grinding or cap would level out
         const double mu = friction_value(friction_);
-        return {make_platen(spheres, 0.0, 1.0, mu, shape.section(), capping),
-                make_platen(spheres, shape.height, -1.0, mu, shape.section(), capping)};
+        std::vector<Platen> platens{make_platen(spheres, 0.0, 1.0, mu, shape.section(), capping),
+                                    make_platen(spheres, shape.height, -1.0, mu, shape.section(), capping)};
+        for (auto& platen : platens) {
+            platen.area_weight *= platen_stiffness_;
+        }
+        return platens;
     }
 
     [[nodiscard]] std::vector<Stage> stages() const override {
@@ -126,6 +132,7 @@ class Ucs : public Protocol {
     double rate_ = 0.05;
     input::NumberOrWord ramp_{0.0, "auto"};
     input::NumberOrWord friction_{0.3, ""};
+    double platen_stiffness_ = 1.0;
     StopRules stop_;
 };
 

@@ -77,66 +77,70 @@ Material elastic() {
 } // namespace
 
 Case area_models() {
-    return {"area-models", "5.3", "Every area rule and three treatments of the skin: cuts, filling and scatter of the modulus.", true, [] {
-                constexpr int seeds = 5;
-                constexpr std::int64_t small = 2000;
-                ElasticOptions options{.anchor = 1e-10};
-                options.tolerance = 1e-7; // four digits are shown
-                Outcome out;
-                const Mesh large[2] = {cylinder_mesh(1), cylinder_mesh(2)};
-                std::vector<Mesh> few;
-                for (int seed = 1; seed <= seeds; ++seed) {
-                    few.push_back(small_cylinder(small, seed));
-                }
-                std::string table =
-                    "| areas | 3D-1 whole | interior | sum(A d)/V | dropped | 3D-2 whole | interior | sum(A d)/V | dropped | E/E0 | its "
-                    "scatter | nu | its scatter |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-                const auto report = [&](const std::string& what, double value) {
-                    out.checks.push_back({what, 0.0, value, 0.0, Compare::reported});
-                };
-                for (const auto& model : models) {
-                    const std::string name = model.name;
-                    table += "| " + name;
-                    for (const auto& mesh : large) {
-                        const Areas areas = model.areas(mesh);
-                        const Bonds bonds = mesh.bonds(elastic(), &areas);
-                        const Partition p = partition(mesh.specimen.shape, mesh.spheres, bonds);
-                        report(name + ", " + mesh.name + ": section", p.section);
-                        report(name + ", " + mesh.name + ": interior", p.interior);
-                        report(name + ", " + mesh.name + ": sum(A d)/V", p.filling);
-                        const double dropped =
-                            static_cast<double>(mesh.pairs.size() - bonds.size()) / static_cast<double>(mesh.pairs.size());
-                        table += fmt::format(" | {:.4f} | {:.4f} | {:.3f} | {:.2f} %", p.section, p.interior, p.filling, 100.0 * dropped);
-                    }
-                    Moments e;
-                    Moments nu;
-                    for (const auto& mesh : few) {
-                        const Areas areas = model.areas(mesh);
-                        const Material m = elastic();
-                        const auto found = press_elastically(mesh.specimen.shape, mesh.spheres, mesh.bonds(m, &areas), options);
-                        e.add(found.young_modulus / m.young_modulus);
-                        nu.add(found.poisson_ratio);
-                    }
-                    report(name + ": E/E0, mean of seeds", e.mean());
-                    report(name + ": E/E0, deviation over its mean", e.deviation() / e.mean());
-                    report(name + ": nu, mean of seeds", nu.mean());
-                    table += fmt::format(" | {:.4f} | {:.2f} % | {:.4f} | {:.4f} |\n", e.mean(), 100.0 * e.deviation() / e.mean(),
-                                         nu.mean(), nu.deviation());
-                }
+    return {
+        "area-models", "5.3", "Every area rule and three treatments of the skin: cuts, filling and scatter of the modulus.", true, [] {
+            constexpr int seeds = 5;
+            constexpr std::int64_t small = 2000;
+            ElasticOptions options{.anchor = 1e-10};
+            options.tolerance = 1e-7; // four digits are shown
+            Outcome out;
+            const Mesh large[2] = {cylinder_mesh(1), cylinder_mesh(2)};
+            std::vector<Mesh> few;
+            for (int seed = 1; seed <= seeds; ++seed) {
+                few.push_back(small_cylinder(small, seed));
+            }
+            report::Curve scatter{"E/E0, mean of seeds", {}, {}, "#1f4e79"};
+            std::string table =
+                "| areas | 3D-1 whole | interior | sum(A d)/V | dropped | 3D-2 whole | interior | sum(A d)/V | dropped | E/E0 | its "
+                "scatter | nu | its scatter |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+            const auto report = [&](const std::string& what, double value) {
+                out.checks.push_back({what, 0.0, value, 0.0, Compare::reported});
+            };
+            for (const auto& model : models) {
+                const std::string name = model.name;
+                table += "| " + name;
                 for (const auto& mesh : large) {
-                    const LaguerreAreas l = laguerre_areas(mesh.specimen.shape, mesh.spheres, mesh.pairs);
-                    out.checks.push_back({mesh.name + ": volume of Laguerre cells over the cylinder's", 1.0, l.volume_ratio, 0.002});
-                    report(mesh.name + ": share of bonds without a facet",
-                           static_cast<double>(l.facetless) / static_cast<double>(mesh.pairs.size()));
-                    report(mesh.name + ": share of facet area without a bond", l.unbonded_share);
+                    const Areas areas = model.areas(mesh);
+                    const Bonds bonds = mesh.bonds(elastic(), &areas);
+                    const Partition p = partition(mesh.specimen.shape, mesh.spheres, bonds);
+                    report(name + ", " + mesh.name + ": section", p.section);
+                    report(name + ", " + mesh.name + ": interior", p.interior);
+                    report(name + ", " + mesh.name + ": sum(A d)/V", p.filling);
+                    const double dropped = static_cast<double>(mesh.pairs.size() - bonds.size()) / static_cast<double>(mesh.pairs.size());
+                    table += fmt::format(" | {:.4f} | {:.4f} | {:.3f} | {:.2f} %", p.section, p.interior, p.filling, 100.0 * dropped);
                 }
-                out.notes = {
-                    table,
-                    fmt::format("Cuts on the meshes of area-partition; E and nu between lubricated ends, {} packings of {} spheres, bonds "
-                                "with a = b = 1, nu 0.2, coordination 10.",
-                                seeds, small)};
-                return out;
-            }};
+                Moments e;
+                Moments nu;
+                for (const auto& mesh : few) {
+                    const Areas areas = model.areas(mesh);
+                    const Material m = elastic();
+                    const auto found = press_elastically(mesh.specimen.shape, mesh.spheres, mesh.bonds(m, &areas), options);
+                    e.add(found.young_modulus / m.young_modulus);
+                    nu.add(found.poisson_ratio);
+                }
+                report(name + ": E/E0, mean of seeds", e.mean());
+                report(name + ": E/E0, deviation over its mean", e.deviation() / e.mean());
+                report(name + ": nu, mean of seeds", nu.mean());
+                scatter.x.push_back(static_cast<double>(scatter.x.size()) + 1.0);
+                scatter.y.push_back(e.mean());
+                table += fmt::format(" | {:.4f} | {:.2f} % | {:.4f} | {:.4f} |\n", e.mean(), 100.0 * e.deviation() / e.mean(), nu.mean(),
+                                     nu.deviation());
+            }
+            out.plots.push_back({"Modulus over that of the bonds, area rules in the order of the table.", "rule", "E/E0", {scatter}, {}});
+            for (const auto& mesh : large) {
+                const LaguerreAreas l = laguerre_areas(mesh.specimen.shape, mesh.spheres, mesh.pairs);
+                out.checks.push_back({mesh.name + ": volume of Laguerre cells over the cylinder's", 1.0, l.volume_ratio, 0.002});
+                report(mesh.name + ": share of bonds without a facet",
+                       static_cast<double>(l.facetless) / static_cast<double>(mesh.pairs.size()));
+                report(mesh.name + ": share of facet area without a bond", l.unbonded_share);
+            }
+            out.notes = {
+                table,
+                fmt::format("Cuts on the meshes of area-partition; E and nu between lubricated ends, {} packings of {} spheres, bonds "
+                            "with a = b = 1, nu 0.2, coordination 10.",
+                            seeds, small)};
+            return out;
+        }};
 }
 
 } // namespace proveta::verification

@@ -225,21 +225,22 @@ void shear_after_tension(Outcome& out) {
 } // namespace
 
 Case dempack_bond() {
-    return {"dempack-bond", "5.2.3-5.2.5", "One bond along every load path: forces point by point, energies as areas under curves.", false,
-            [] {
-                Outcome out;
-                report::Plot normal{"A bond in tension and compression.", "shortening [um]", "normal stress [MPa]", {}, {}};
-                report::Plot sheared{"A bond in shear, with friction after failure.", "slip [um]", "shear stress [MPa]", {}, {}};
-                tension(out, normal, false);
-                tension(out, normal, true);
-                compression(out, normal);
-                shear(out, sheared, 0.0, "#1f4e79");
-                shear(out, sheared, 20e6, "#c0392b");
-                shear_by_energy(out);
-                shear_after_tension(out);
-                out.plots = {normal, sheared};
-                return out;
-            }};
+    return {
+        "dempack-bond", "5.2.3-5.2.5", "One bond along every load path: forces point by point, energies as areas under curves.", false, [] {
+            Outcome out;
+            report::Plot pulled{"A bond in tension: softening, unloading, reloading.", "shortening [um]", "normal stress [MPa]", {}, {}};
+            report::Plot normal{"A bond in compression, on into tension.", "shortening [um]", "normal stress [MPa]", {}, {}};
+            report::Plot sheared{"A bond in shear, with friction after failure.", "slip [um]", "shear stress [MPa]", {}, {}};
+            tension(out, pulled, false);
+            tension(out, pulled, true);
+            compression(out, normal);
+            shear(out, sheared, 0.0, "#1f4e79");
+            shear(out, sheared, 20e6, "#c0392b");
+            shear_by_energy(out);
+            shear_after_tension(out);
+            out.plots = {pulled, normal, sheared};
+            return out;
+        }};
 }
 
 } // namespace proveta::verification

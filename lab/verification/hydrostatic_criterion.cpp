@@ -31,8 +31,8 @@ Confined confine(const std::string& criterion, double pressure) {
                 numerics);
     model.pressures = {lateral_pressure(shape, model.spheres), end_pressure(shape, model.spheres, 1.0),
                        end_pressure(shape, model.spheres, -1.0)};
-    const double ramp = 30.0 * shape.height / bench.wave_speed;
-    while (model.time() < 1.5 * ramp) {
+    const double ramp = 15.0 * shape.height / bench.wave_speed;
+    while (model.time() < 1.4 * ramp) {
         for (auto& p : model.pressures) {
             p.value = pressure * smooth_start(model.time(), ramp);
         }

@@ -34,6 +34,16 @@ Case polygon_areas() {
                     out.checks.push_back({name, perimeter / (2.0 * pi), polygon_ratio(n), 1e-12});
                     out.checks.push_back({name + ", as printed", printed[k], polygon_ratio(n), 5.001e-4, Compare::absolute});
                 }
+                report::Curve solids{"polyhedra, between the solids linear", {}, {}, "#1f4e79"};
+                report::Curve polygons{"polygons", {}, {}, "#c0392b"};
+                for (double n = 4.0; n <= 30.0; n += 0.5) {
+                    solids.x.push_back(n);
+                    solids.y.push_back(polyhedron_ratio(n));
+                    polygons.x.push_back(n);
+                    polygons.y.push_back(polygon_ratio(n));
+                }
+                out.plots.push_back(
+                    {"Surface over that of the inscribed sphere or circle.", "faces or sides", "ratio", {solids, polygons}, {}});
                 return out;
             }};
 }

@@ -52,6 +52,8 @@ Case regular_lattice() {
                 Outcome out;
                 const Mesh mesh = make_mesh("hexagonal", hexagonal_lattice(12, 13, radius), 0.0);
                 constexpr double young = 20e6;
+                report::Curve stress_curve{"plane stress", {}, {}, "#1f4e79"};
+                report::Curve strain_curve{"plane strain", {}, {}, "#c0392b"};
                 const auto check = [&](double nu, bool plane_strain) {
                     const double e_star = plane_strain ? young / (1.0 - nu * nu) : young;
                     const double nu_star = plane_strain ? nu / (1.0 - nu) : nu;
@@ -72,6 +74,9 @@ Case regular_lattice() {
                     const std::string name = fmt::format("nu {:.4g}, plane {}", nu, plane_strain ? "strain" : "stress");
                     const double nu_back = plane_strain ? nu_found / (1.0 + nu_found) : nu_found;
                     const double e_back = plane_strain ? e_found * (1.0 - nu_back * nu_back) : e_found;
+                    auto& curve = plane_strain ? strain_curve : stress_curve;
+                    curve.x.push_back(nu);
+                    curve.y.push_back(nu_back);
                     out.checks.push_back({name + ": E", young, e_back, 1e-9, Compare::relative, "Pa"});
                     out.checks.push_back({name + ": nu", nu, nu_back, 1e-9, Compare::absolute});
                 };
@@ -81,6 +86,8 @@ Case regular_lattice() {
                 for (const double nu : {0.1, 0.2, 0.25}) {
                     check(nu, true);
                 }
+                out.plots.push_back(
+                    {"Poisson's ratio that a hexagonal lattice gives back.", "nu asked for", "nu found", {stress_curve, strain_curve}, {}});
                 out.notes = {"Beyond nu = 1/3 in plane stress and 1/4 in plane strain (5.10) would want a negative k_t."};
                 return out;
             }};

@@ -85,7 +85,7 @@ void shear(Outcome& out, report::Curve& curve, const char* name, bool pressed) {
         pair.move(pressed && k == 380 ? 157466.0 / pair.k_n() : 0.0, slip);
         force.push_back(pair.response.shear[0]);
         peak = std::max(peak, force.back());
-        gone = force.back() == 0.0 && gone == 0 ? k : gone;
+        gone = force.back() <= 0.0 && gone == 0 ? k : gone;
         late = k == 385 ? force.back() : late;
         curve.x.push_back(1e3 * k * slip);
         curve.y.push_back(1e-6 * force.back());
@@ -96,6 +96,8 @@ void shear(Outcome& out, report::Curve& curve, const char* name, bool pressed) {
     if (pressed) {
         out.checks.push_back({std::string(name) + " shear after pressure came on, step 385", 123757, late, 0.1, Compare::relative, "N"});
     } else {
+        out.checks.push_back(
+            {std::string(name) + " shear, force left after failure", -115.707, force.back(), 0.02, Compare::relative, "N"});
         out.checks.push_back({std::string(name) + " shear, steps to failure", 381, static_cast<double>(gone), 0.02, Compare::relative, ""});
     }
 }

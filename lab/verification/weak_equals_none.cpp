@@ -47,7 +47,7 @@ std::vector<Vec3> path(bool bonded, double mu) {
             model.spheres.spin.set(1, {-7.0, 5.0, 30.0});
         }
         model.step({}, false);
-        if (k % 20 == 0) {
+        if (k < 400 || k % 20 == 0) {
             out.push_back(model.spheres.position.at(1) - model.spheres.position.at(0));
             out.push_back(model.spheres.velocity.at(0));
             out.push_back(model.spheres.spin.at(1));
@@ -72,10 +72,12 @@ Case weak_equals_none() {
                         difference[k % 3] = std::max(difference[k % 3], (weak[k] - none[k]).norm());
                         size[k % 3] = std::max(size[k % 3], none[k].norm());
                         if (k % 3 == 1) {
-                            a.x.push_back(2e-3 * static_cast<double>(a.x.size()));
-                            a.y.push_back(weak[k].x());
-                            b.x.push_back(a.x.back());
-                            b.y.push_back(none[k].x());
+                            if (a.x.size() < 400) { // the contact, a step a sample
+                                a.x.push_back(0.1 * static_cast<double>(a.x.size()));
+                                a.y.push_back(weak[k].x());
+                                b.x.push_back(a.x.back());
+                                b.y.push_back(none[k].x());
+                            }
                         }
                     }
                     const char* what[3] = {"relative position", "velocity", "spin"};
@@ -86,7 +88,7 @@ Case weak_equals_none() {
                     }
                     if (mu == 0.25) {
                         out.plots.push_back({"An oblique impact with and without a failed bond.",
-                                             "time [ms]",
+                                             "time [us]",
                                              "velocity along the first line of centres [m/s]",
                                              {a, b},
                                              {}});

@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include <algorithm>
 
 #include "lab/deck.hpp"
@@ -100,4 +102,33 @@ TEST_CASE("settings from the command line change one value") {
     CHECK(json["material"]["card"] == "concrete_dempack");
     CHECK_THROWS_AS(apply_settings(json, {"rate"}), input::InputError);
     CHECK_THROWS_AS(apply_settings(json, {"test.x=1"}), input::InputError);
+}
+
+TEST_CASE("the presets beside the default carry the law they are named after") {
+    const auto material = [](const std::string& text) { return to_material(read_deck(Json::parse(text), "deck.json").material.values); };
+    const Material released = material(R"({"test": "ucs", "material": {"card": "dempack-released"}})");
+    CHECK(released.bond.kind == LawKind::released);
+    CHECK(released.area_rule == AreaRule::minimum_radius);
+    const Material thesis = material(R"({"test": "ucs", "material": {"card": "thesis"}})");
+    CHECK(thesis.bond.kind == LawKind::dempack);
+    CHECK(thesis.bond.sigma_f == 5e6);
+    CHECK(thesis.local_damping == 0.9);
+    const Material tough =
+        material(R"({"test": "ucs", "material": {"fracture_energy_tension": 100, "sigma_f": "4 MPa", "strength_factor": 1}})");
+    CHECK(bond_law(tough).opening_f == Approx(2.0 * 100 / 4e6));
+    CHECK(bond_law(tough).slip_f == 0.0);
+    const Material averaged =
+        material(R"({"test": "ucs", "material": {"criterion": "rankine", "sigma_f": "4 MPa", "strength_factor": 1}})");
+    CHECK(bond_law(averaged).averaged_sigma_f == 4e6);
+    CHECK(std::isinf(bond_law(averaged).sigma_f));
+}
+
+TEST_CASE("laws that do not go together are refused, each with its place") {
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"card": "dempack-released", "criterion": "rankine"}})"), "/material/criterion"));
+    CHECK(
+        has(problems_of(R"({"test": "ucs", "material": {"card": "dempack-released", "bending_factor": 1}})"), "/material/bending_factor"));
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"criterion": "mohr_coulomb", "fracture_energy_tension": 100}})"),
+              "/material/criterion"));
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"criterion": "mohr-coulomb"}})"), "/material/criterion"));
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"plastic_modulus_ratio": 2}})"), "/material/plastic_modulus_ratio"));
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "lab/fields.hpp"
+#include "lab/fragments.hpp"
 #include "tests/support.hpp"
 
 using namespace proveta;
