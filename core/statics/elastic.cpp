@@ -42,7 +42,7 @@ Spring spring(const Spheres& s, const Bonds& b, std::size_t k, double shear_rati
 
 class Network {
   public:
-    Network(const Spheres& spheres, const Bonds& bonds) : s_(spheres), b_(bonds), n_(spheres.size()) {
+    Network(const Spheres& spheres, const Bonds& bonds) : b_(bonds), n_(spheres.size()) {
         springs_.resize(bonds.size());
         for (const auto& block : bonds.blocks) {
             for (std::size_t k = block.begin; k < block.end; ++k) {
@@ -131,7 +131,6 @@ class Network {
   private:
     static Index at(std::int32_t sphere) { return 6 * static_cast<Index>(sphere); }
 
-    const Spheres& s_;
     const Bonds& b_;
     std::size_t n_;
     std::vector<Spring> springs_;

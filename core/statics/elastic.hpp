@@ -1,4 +1,5 @@
-// Linear elasticity of a bond network: spheres with translations and rotations, bonds as springs with lever arms.
+// Linear elasticity of a bond network: spheres with translations and rotations, bonds as springs with lever arms. Bending and twisting
+// stiffness of bonds is not part of it.
 #pragma once
 
 #include <cstdint>

@@ -68,6 +68,9 @@ Case mesh_convergence() {
                 std::vector<double> peaks;
                 int k = 0;
                 for (const int n : {107, 251, 497, 1004, 4959, 13500, 71852}) {
+                    if (by_energy && n > 20000) {
+                        continue; // tough to the end of the strain range: an hour
+                    }
                     input::Json json = {{"specimen", {{"spheres", n}}}, {"loading", {{"rate", 0.1}}}};
                     if (by_energy) {
                         // Enough that the coarsest specimen's bonds, some 60 mm long, do not snap back; then much tougher than concrete.
@@ -78,10 +81,8 @@ Case mesh_convergence() {
                     peaks.push_back(t.peak);
                     plot.curves.push_back(t.curve);
                 }
-                const auto fine = peaks.end() - 3; // 4,959 and up
-                const double mean = (fine[0] + fine[1] + fine[2]) / 3.0;
-                out.checks.push_back({fmt::format("spread of the peak from 4,959 spheres on, {}", how), 0.0,
-                                      (*std::max_element(fine, peaks.end()) - *std::min_element(fine, peaks.end())) / mean, 0.0,
+                const auto [low, high] = std::minmax_element(peaks.begin() + 4, peaks.end());
+                out.checks.push_back({fmt::format("spread of the peak from 4,959 spheres on, {}", how), 0.0, *high / *low - 1.0, 0.0,
                                       Compare::reported, ""});
                 out.plots.push_back(plot);
             }

@@ -225,6 +225,18 @@ class Specimens(Case):
 
 
 class SelfDescription(Case):
+    def test_verify_prints_a_table_and_writes_plots(self):
+        done = self.run_program("verify", "polygon-areas", "--out", "verified")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("1 of 1 cases hold", done.stdout)
+        for name in ("verification.md", "polygon-areas.svg", "polygon-areas.csv"):
+            self.assertTrue((self.folder / "verified" / name).is_file(), name)
+        listed = self.run_program("verify", "--list").stdout
+        self.assertIn("dempack-bond", listed)
+        wrong = self.run_program("verify", "dempack-bnd")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn('did you mean "dempack-bond"?', wrong.stderr)
+
     def test_version_describe_and_reference(self):
         self.assertIn("proveta", self.run_program("--version").stdout)
         self.assertIn("platen_friction", self.run_program("describe", "ucs").stdout)

@@ -99,7 +99,8 @@ TEST_CASE("fragments: what has come off is marked, what holds together is not") 
 }
 
 TEST_CASE("checkpoint: bonds with moments and an averaged criterion go on bit for bit") {
-    const Deck deck = small_deck(400, R"({"material": {"criterion": "rankine", "bending_factor": 1, "twisting_factor": 0.5}})");
+    const Deck deck =
+        small_deck(400, R"({"material": {"criterion": "rankine", "sigma_f": "0.5 MPa", "bending_factor": 1, "twisting_factor": 0.5}})");
     const Specimen specimen = make_specimen(deck.specimen);
     Bench whole = set_up(deck, specimen);
     const auto press = [](Model& m, int steps) {
