@@ -49,8 +49,8 @@ struct Card {
 
 void declare(input::Visitor& v, Card& card);
 
-/// The numbers of a card as the physics wants them; strength_factor multiplies sigma_f, tau_f and the LCS. An area_factor "auto" is left at 1:
-/// only a specimen tells it.
+/// The numbers of a card as the physics wants them; strength_factor multiplies sigma_f, tau_f and the LCS. An area_factor "auto" is left at
+/// 1: only a specimen tells it.
 Material to_material(const Card& card);
 
 /// Card name that stands for no card: the numbers of table 5.5, to be overridden.

@@ -24,10 +24,10 @@ Finished run(const Case& which);
 /// Columns case, quantity, expected, found, error, allowed, thesis, verdict; a line a check.
 std::vector<std::vector<std::string>> rows(const Finished& finished);
 
-/// Rows as text with aligned columns, without the heading when `heading` is false.
+/// Rows of all cases as text with aligned columns, under a heading.
 std::string as_text(const std::vector<Finished>& finished);
 
-/// Rows, plots and notes as a page of documentation; plots are named by `plot_file`.
+/// Rows, notes and links to the plots (`folder`/`plot_file`) as Markdown.
 std::string as_markdown(const std::vector<Finished>& finished, const std::string& folder);
 
 /// Name of the k-th plot's file without ending: the case's name, with a number from the second on.
