@@ -137,25 +137,19 @@ void averaged_criteria(const Bonds& b, const std::vector<Mat3>& stress, std::vec
     }
 }
 
-double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, FailureMode mode, double dt) {
+double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& law, FailureMode mode, double dt, bool measure) {
     const auto i = static_cast<std::size_t>(b.i[bond]);
     const auto j = static_cast<std::size_t>(b.j[bond]);
     const Vec3 to = s.position.at(j) - s.position.at(i);
     const double d = to.norm();
     const Vec3 n = to / d;
     const double k_n = b.stiffness[bond];
-    const BondLaw* law = nullptr;
-    for (const auto& block : b.blocks) {
-        if (bond >= block.begin && bond < block.end) {
-            law = &b.laws[block.law];
-        }
-    }
     const double elongation = d - (b.length[bond] - b.plastic[bond]);
     const double before = elongation - (s.velocity.at(j) - s.velocity.at(i)).dot(n) * dt;
     const Vec3 slip = b.slip.at(bond);
     const Vec3 force(b.forces[bond].force[0], b.forces[bond].force[1], b.forces[bond].force[2]);
     const double work_n = 0.5 * k_n * std::max(elongation, 0.0) * std::max(before, 0.0);
-    double work = work_n + 0.5 * k_n * law->shear_ratio * slip.squaredNorm();
+    double work = work_n + 0.5 * k_n * law.shear_ratio * slip.squaredNorm();
     if (b.moments) {
         work += 0.5 * b.couple.at(bond).dot(b.rotation.at(bond));
         b.couple.set(bond, Vec3::Zero());
@@ -170,6 +164,11 @@ double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, FailureMode mode,
     (mode == FailureMode::tension ? b.damage_n : b.damage_t)[bond] = 1.0;
     b.mode[bond] = static_cast<std::uint8_t>(mode);
     b.damage_work[bond] += work;
+    if (measure) {
+        b.normal[bond] = std::max(b.normal[bond], 0.0);
+        b.shear[bond] = 0.0;
+        b.stored[bond] = b.normal[bond] * b.normal[bond] / (2.0 * k_n);
+    }
     return work;
 }
 

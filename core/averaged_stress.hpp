@@ -40,6 +40,7 @@ void averaged_criteria(const Bonds& bonds, const std::vector<Mat3>& stress, std:
 
 /// Fails a bond at once at the end of a step of dt seconds: tension and shear are gone, compression stays; its pair force becomes the one
 /// after failure. Returns the energy that this took, J, trapezoidal over the step as in the law.
-double fail_bond(const Spheres& spheres, Bonds& bonds, std::size_t bond, FailureMode mode, double dt);
+/// law: the bond's. With `measure` the output arrays of Bonds follow.
+double fail_bond(const Spheres& spheres, Bonds& bonds, std::size_t bond, const BondLaw& law, FailureMode mode, double dt, bool measure);
 
 } // namespace proveta

@@ -138,24 +138,19 @@ void Model::fail_by_averaged_stress(bool measure) {
     const auto single = sphere_stresses(spheres, bonds, contacts, platens, pressures, volume_);
     averaged_criteria(bonds, vicinity_stresses(bonds, single, volume_), averaged_value_, shear_governs_);
     for (const auto& block : bonds.blocks) {
-        if (bonds.laws[block.law].criterion == Criterion::bond) {
+        const BondLaw& law = bonds.laws[block.law];
+        if (law.criterion == Criterion::bond) {
             continue;
         }
         for (std::uint32_t b = block.begin; b < block.end; ++b) {
-            const bool fails = bonds.mode[b] == 0 && averaged_value_[b] >= 1.0;
-            if (fails) {
-                const auto mode = shear_governs_[b] ? FailureMode::shear : FailureMode::tension;
-                ledger_.damage += fail_bond(spheres, bonds, b, mode, dt_);
-                failures_.push_back({b, mode});
-                ++broken_;
-            }
             if (measure) {
                 bonds.criterion[b] = std::min(averaged_value_[b], 1.0);
-                if (fails) {
-                    bonds.stored[b] = std::max(bonds.normal[b], 0.0) * std::max(bonds.normal[b], 0.0) / (2.0 * bonds.stiffness[b]);
-                    bonds.normal[b] = std::max(bonds.normal[b], 0.0);
-                    bonds.shear[b] = 0.0;
-                }
+            }
+            if (bonds.mode[b] == 0 && averaged_value_[b] >= 1.0) {
+                const auto mode = shear_governs_[b] ? FailureMode::shear : FailureMode::tension;
+                ledger_.damage += fail_bond(spheres, bonds, b, law, mode, dt_, measure);
+                failures_.push_back({b, mode});
+                ++broken_;
             }
         }
     }

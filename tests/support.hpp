@@ -5,20 +5,11 @@
 
 #include "core/model.hpp"
 #include "lab/bench.hpp"
+#include "lab/verification/unbreakable.hpp"
 
 namespace proveta::testing {
 
-/// A material that never breaks or yields.
-inline Material unbreakable(double young = 28.0e9) {
-    Material m;
-    m.young_modulus = young;
-    m.bond.sigma_f = 1e30;
-    m.bond.tau_f = 1e30;
-    m.bond.lcs[0] = 1e30;
-    m.bond.lcs[1] = 2e30;
-    m.bond.lcs[2] = 3e30;
-    return m;
-}
+using verification::unbreakable;
 
 /// Two equal spheres of radius r that touch, along x, bonded with area pi r^2.
 inline Spheres two_spheres(double r, double density = 2500.0) {

@@ -19,10 +19,6 @@ BondLaw bond_law(const Material& material) {
     return law;
 }
 
-double longest_bond(double modulus, double fracture_energy, double strength) {
-    return 2.0 * modulus * fracture_energy / (strength * strength);
-}
-
 namespace {
 
 double in_series(double a, double b) { return 2.0 * a * b / (a + b); }

@@ -43,10 +43,6 @@ struct Material {
 /// are given, u_f = 2 G_f / sigma_f and 2 G_s / tau_f. With an averaged criterion the law's own strengths are infinite.
 BondLaw bond_law(const Material& material);
 
-/// Longest bond whose softening branch does not snap back, for G in J/m2 against a strength in Pa and a modulus (a E in tension, b G in
-/// shear) in Pa: 2 E G / sigma^2, m.
-double longest_bond(double modulus, double fracture_energy, double strength);
-
 /// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest; of two contact
 /// laws or restitution rules the default one. Symmetric in a and b; of two equal materials it is that material.
 Material equivalent(const Material& a, const Material& b);

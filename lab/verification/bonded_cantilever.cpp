@@ -4,6 +4,7 @@
 
 #include "core/model.hpp"
 #include "lab/verification/cases.hpp"
+#include "lab/verification/unbreakable.hpp"
 
 namespace proveta::verification {
 
@@ -22,15 +23,10 @@ struct Tip {
 
 // Row of n bonds along x, held at the first sphere, with a force and a torque at the last; brought to rest by damping.
 Tip load(int n, const Vec3& force, const Vec3& torque) {
-    Material m;
-    m.young_modulus = young;
+    Material m = unbreakable(young);
     m.poisson_ratio = poisson;
     m.shear_factor = kappa;
     m.area_rule = AreaRule::truncated_cone;
-    m.bond.sigma_f = m.bond.tau_f = 1e30;
-    m.bond.lcs[0] = 1e30;
-    m.bond.lcs[1] = 2e30;
-    m.bond.lcs[2] = 3e30;
     m.bond.bending = 1.0;
     m.bond.twisting = 1.0 / kappa; // it stands on k_t, which has kappa in it
     Spheres s;

@@ -4,6 +4,7 @@
 
 #include "core/model.hpp"
 #include "lab/verification/cases.hpp"
+#include "lab/verification/unbreakable.hpp"
 
 namespace proveta::verification {
 
@@ -11,13 +12,10 @@ namespace {
 
 // Two spheres that touch at rest, driven apart for a little and then into each other at a slant, with spin: sticking, sliding, parting.
 std::vector<Vec3> path(bool bonded, double mu) {
-    Material m;
+    Material m = unbreakable(); // the loose law has no plastic branch
     m.bond.sigma_f = 0.0;
     m.bond.tau_f = 0.0;
     m.bond.mu_d = mu;
-    m.bond.lcs[0] = 1e30; // the loose law has no plastic branch
-    m.bond.lcs[1] = 2e30;
-    m.bond.lcs[2] = 3e30;
     m.contact_restitution = 1.0; // nor the failed bond a dashpot
     Spheres s;
     s.add({0, 0, 0}, 0.01, 2500.0);
