@@ -10,7 +10,7 @@ std::vector<double> tributary_volumes(const Spheres& s, const Bonds& b) {
     std::vector<double> volume(s.size(), 0.0);
     const double dimensions = s.planar ? 2.0 : 3.0; // of a cone's height
     for (std::size_t k = 0; k < b.size(); ++k) {
-        const double share = b.forces[k].share_i;
+        const double share = b.share[k];
         volume[static_cast<std::size_t>(b.i[k])] += b.area[k] * share * b.length[k] / dimensions;
         volume[static_cast<std::size_t>(b.j[k])] += b.area[k] * (1.0 - share) * b.length[k] / dimensions;
     }
@@ -29,9 +29,9 @@ template <class Pairs> void add_pairs(const Spheres& s, const Pairs& pairs, std:
     const auto& in = pairs.incidence;
     for (auto e = in.offset[sphere]; e < in.offset[sphere + 1]; ++e) {
         const auto p = in.entry[e] >> 1;
-        const double share = (in.entry[e] & 1u) != 0 ? 1.0 - pairs.forces[p].share_i : pairs.forces[p].share_i;
+        const double share = (in.entry[e] & 1u) != 0 ? 1.0 - pairs.share[p] : pairs.share[p];
         const Vec3 to = s.position.at(static_cast<std::size_t>(pairs.j[p])) - s.position.at(static_cast<std::size_t>(pairs.i[p]));
-        sum -= share * to * Vec3(pairs.forces[p].force[0], pairs.forces[p].force[1], pairs.forces[p].force[2]).transpose();
+        sum -= share * to * pairs.force.at(p).transpose();
     }
 }
 
@@ -137,7 +137,7 @@ void averaged_criteria(const Bonds& b, const std::vector<Mat3>& stress, std::vec
     }
 }
 
-double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& law, FailureMode mode, double dt, bool measure) {
+double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& law, FailureMode mode, double dt, Loads& loads) {
     const auto i = static_cast<std::size_t>(b.i[bond]);
     const auto j = static_cast<std::size_t>(b.j[bond]);
     const Vec3 to = s.position.at(j) - s.position.at(i);
@@ -147,28 +147,30 @@ double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& la
     const double elongation = d - (b.length[bond] - b.plastic[bond]);
     const double before = elongation - (s.velocity.at(j) - s.velocity.at(i)).dot(n) * dt;
     const Vec3 slip = b.slip.at(bond);
-    const Vec3 force(b.forces[bond].force[0], b.forces[bond].force[1], b.forces[bond].force[2]);
+    const Vec3 force = b.force.at(bond);
     const double work_n = 0.5 * k_n * std::max(elongation, 0.0) * std::max(before, 0.0);
     double work = work_n + 0.5 * k_n * law.shear_ratio * slip.squaredNorm();
+    Vec3 couple = Vec3::Zero();
     if (b.moments) {
+        couple = b.couple.at(bond);
         work += 0.5 * b.couple.at(bond).dot(b.rotation.at(bond));
         b.couple.set(bond, Vec3::Zero());
         b.rotation.set(bond, Vec3::Zero());
     }
     const Vec3 left = elongation > 0.0 ? Vec3::Zero().eval() : Vec3(n * n.dot(force));
-    for (int c = 0; c < 3; ++c) {
-        b.forces[bond].force[c] = left[c];
-        b.forces[bond].moment[c] = 0.0;
-    }
+    // The loads have the bond's force already: put what is left in its place.
+    const Vec3 moment = to.cross(left - force);
+    loads.add(i, left - force, b.share[bond] * moment - couple);
+    loads.add(j, force - left, (1.0 - b.share[bond]) * moment + couple);
+    b.force.set(bond, left);
     b.slip.set(bond, Vec3::Zero());
     (mode == FailureMode::tension ? b.damage_n : b.damage_t)[bond] = 1.0;
     b.mode[bond] = static_cast<std::uint8_t>(mode);
+    b.worn[bond] = 1;
     b.damage_work[bond] += work;
-    if (measure) {
-        b.normal[bond] = std::max(b.normal[bond], 0.0);
-        b.shear[bond] = 0.0;
-        b.stored[bond] = b.normal[bond] * b.normal[bond] / (2.0 * k_n);
-    }
+    b.normal[bond] = std::max(b.normal[bond], 0.0);
+    b.shear[bond] = 0.0;
+    b.stored[bond] = b.normal[bond] * b.normal[bond] / (2.0 * k_n);
     return work;
 }
 

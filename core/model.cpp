@@ -1,6 +1,9 @@
 #include "core/model.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -28,7 +31,7 @@ UnstableStep::UnstableStep(double asked_step, double stable_step)
 Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> weight, std::vector<Platen> boundary,
              const Numerics& numerics)
     : spheres(std::move(s)), materials(std::move(m)), bonds(std::move(b)), platens(std::move(boundary)), weight_(std::move(weight)),
-      numerics_(numerics), bound_(spheres, bonds) {
+      numerics_(numerics), bound_(spheres, bonds), team_(std::make_unique<Team>(omp_get_max_threads())) {
     const double mean_radius =
         std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / std::max<double>(1.0, static_cast<double>(spheres.size()));
     skin_ = numerics_.skin * mean_radius;
@@ -37,6 +40,9 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     if (averaged_) {
         volume_ = tributary_volumes(spheres, bonds);
     }
+    loads = Loads(spheres.size());
+    block_sums_.resize(loads.blocks().size());
+    block_motion_.resize(loads.blocks().size());
     travel_ = 2.0 * skin_; // makes the first search happen
     search();
     dt_ = numerics_.safety * stable_;
@@ -50,11 +56,19 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
 }
 
 void Model::step(const std::vector<double>& speeds, bool measure) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
     search();
+    const auto searched = Clock::now();
     // The first forces are those of the start: velocities count, but nothing has moved yet.
     const bool first = steps_ == 0;
     forces(first ? 1e-9 * dt_ : dt_, measure || first);
+    const auto loaded = Clock::now();
     motion(speeds, measure);
+    const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+    phase_times_.search += seconds(searched - begin);
+    phase_times_.forces += seconds(loaded - searched);
+    phase_times_.motion += seconds(Clock::now() - loaded);
     time_ += dt_;
     ++steps_;
 }
@@ -85,6 +99,7 @@ void Model::search() {
         search_platen(spheres, materials, skin_, platens[p]);
         platens_at_[p] = platens[p].position;
     }
+    arrange();
     searched_at_ = spheres.position;
     travel_ = 0.0;
     ++searches_;
@@ -94,39 +109,66 @@ void Model::search() {
     }
 }
 
+// The rows of the loads follow the lists of pairs.
+void Model::arrange() { loads.arrange({{bonds.i, bonds.j, bonds.row_j}, {contacts.i, contacts.j, contacts.row_j}}); }
+
+// All forces on a block's spheres among themselves, on later spheres and by boundaries. Touches nothing that another block touches.
+void Model::block_forces(std::size_t k, const BondView& view, double elapsed, bool measure) {
+    const SphereBlock& block = loads.blocks()[k];
+    BlockSums& out = block_sums_[k];
+    out.failures.clear();
+    loads.clear_kept(block);
+    out.bonds = bond_forces(spheres.view(), bonds, view, k, loads.rows(), elapsed, measure, out.failures);
+    out.contacts = contact_forces(spheres, contacts, k, elapsed, dt_, loads);
+    out.platens.resize(platens.size());
+    for (std::size_t p = 0; p < platens.size(); ++p) {
+        out.platens[p] = platen_forces(spheres, platens[p], block, elapsed, dt_, loads);
+    }
+    out.pressure = 0.0;
+    for (auto& pressure : pressures) {
+        out.pressure += pressure_forces(spheres, pressure, block, elapsed, loads);
+    }
+}
+
 // elapsed: time since the last forces, over which springs are extended and energies counted.
 void Model::forces(double elapsed, bool measure) {
     failures_.clear();
-    const BondDissipation lost = bond_forces(spheres, bonds, elapsed, measure, failures_);
-    broken_ += failures_.size();
-    ledger_.damage += lost.damage;
-    ledger_.plastic += lost.plastic;
-    ledger_.friction += lost.friction;
-    ledger_.dashpots += lost.dashpot;
-
-    const ContactEnergies in_contacts = contact_forces(spheres, contacts, elapsed);
-    ledger_.friction += in_contacts.friction;
-    ledger_.dashpots += in_contacts.dashpot;
-    double stored = in_contacts.stored;
-    if (contacts.rolls) {
-        ledger_.friction += rolling_torques(spheres, contacts, dt_) * elapsed;
+    for (auto& pressure : pressures) {
+        pressure.force.resize(pressure.sphere.size());
     }
+    const bool keep = measure || averaged_;
+    prepare_bond_forces(bonds, keep);
+    const BondView view = bonds.view();
+    team_->run(loads.blocks().size(), [&](std::size_t k) { block_forces(k, view, elapsed, keep); });
 
+    double stored = 0.0;
+    std::vector<PlatenSums> at_platens(platens.size());
+    for (const auto& sums : block_sums_) {
+        ledger_.damage += sums.bonds.damage;
+        ledger_.plastic += sums.bonds.plastic;
+        ledger_.friction += sums.bonds.friction + sums.contacts.friction;
+        ledger_.dashpots += sums.bonds.dashpot + sums.contacts.dashpot;
+        ledger_.pressure += sums.pressure;
+        stored += sums.contacts.stored;
+        for (std::size_t p = 0; p < platens.size(); ++p) {
+            at_platens[p].add(sums.platens[p]);
+        }
+        failures_.insert(failures_.end(), sums.failures.begin(), sums.failures.end());
+    }
+    broken_ += failures_.size();
     for (std::size_t p = 0; p < platens.size(); ++p) {
         Platen& platen = platens[p];
-        const PlatenEnergies at_platen = platen_forces(spheres, platen, elapsed, dt_);
-        ledger_.friction += at_platen.friction;
-        ledger_.dashpots += at_platen.dashpot;
-        stored += at_platen.stored;
+        platen.reaction = at_platens[p].reaction;
+        platen.touching = at_platens[p].touching;
+        ledger_.friction += at_platens[p].friction;
+        ledger_.dashpots += at_platens[p].dashpot;
+        stored += at_platens[p].stored;
         // The platen pushes back with -reaction while it moves by velocity dt.
         ledger_.platens -= 0.5 * (platen.reaction.z() + reactions_[p].z()) * platen.velocity * elapsed;
         reactions_[p] = platen.reaction;
     }
-    for (auto& pressure : pressures) {
-        ledger_.pressure += pressure_forces(spheres, pressure, elapsed);
-    }
     if (averaged_) {
-        fail_by_averaged_stress(measure);
+        fail_by_averaged_stress();
     }
     if (measure) {
         ledger_.elastic = std::accumulate(bonds.stored.begin(), bonds.stored.end(), stored);
@@ -134,7 +176,7 @@ void Model::forces(double elapsed, bool measure) {
 }
 
 // Bonds whose spheres' averaged stress has passed their criterion fail now, in bond order.
-void Model::fail_by_averaged_stress(bool measure) {
+void Model::fail_by_averaged_stress() {
     const auto single = sphere_stresses(spheres, bonds, contacts, platens, pressures, volume_);
     averaged_criteria(bonds, vicinity_stresses(bonds, single, volume_), averaged_value_, shear_governs_);
     for (const auto& block : bonds.blocks) {
@@ -143,12 +185,10 @@ void Model::fail_by_averaged_stress(bool measure) {
             continue;
         }
         for (std::uint32_t b = block.begin; b < block.end; ++b) {
-            if (measure) {
-                bonds.criterion[b] = std::min(averaged_value_[b], 1.0);
-            }
+            bonds.criterion[b] = std::min(averaged_value_[b], 1.0);
             if (bonds.mode[b] == 0 && averaged_value_[b] >= 1.0) {
                 const auto mode = shear_governs_[b] ? FailureMode::shear : FailureMode::tension;
-                ledger_.damage += fail_bond(spheres, bonds, b, law, mode, dt_, measure);
+                ledger_.damage += fail_bond(spheres, bonds, b, law, mode, dt_, loads);
                 failures_.push_back({b, mode});
                 ++broken_;
             }
@@ -165,11 +205,20 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
         }
     }
     const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity};
-    const MotionSums sums = move_spheres(spheres, bonds, contacts, rule, dt_, first, measure || first);
+    team_->run(loads.blocks().size(), [&](std::size_t k) {
+        block_motion_[k] = move_spheres(spheres, loads, loads.blocks()[k], rule, dt_, first, measure || first);
+    });
+    MotionSums sums;
+    for (const auto& part : block_motion_) {
+        sums.damping_work += part.damping_work;
+        sums.kinetic += part.kinetic;
+        sums.unbalanced += part.unbalanced;
+        sums.fastest = std::isnan(part.fastest) ? part.fastest : std::max(sums.fastest, part.fastest);
+    }
     if (first) {
         ledger_.initial = sums.kinetic + ledger_.elastic;
     }
-    double fastest = sums.fastest;
+    double fastest = std::sqrt(sums.fastest);
     for (std::size_t p = 0; p < platens.size(); ++p) {
         platens[p].move(speeds[p], dt_);
         fastest = std::max(fastest, std::fabs(speeds[p]));
@@ -199,11 +248,12 @@ void Model::check() const {
 void Model::restored() {
     const std::size_t n = contacts.i.size();
     contacts.normal.assign(n, 0.0);
-    contacts.forces.assign(n, {});
     set_up_contacts(spheres, materials, weight_, contacts);
     for (auto& platen : platens) {
         set_up_platen(spheres, materials, platen);
     }
+    arrange();
+    bonds.worn.assign(bonds.size(), 1);
     broken_ = bonds.size() - static_cast<std::size_t>(std::count(bonds.mode.begin(), bonds.mode.end(), std::uint8_t{0}));
     failures_.clear();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,7 @@
 #include "core/energy/ledger.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/stable_step.hpp"
+#include "core/parallel/team.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -33,6 +35,13 @@ struct Numerics {
 /// What `Model::step(true)` measured besides the ledger; values at the time of the last forces.
 struct StepMeasures {
     double unbalanced_ratio = 0.0; ///< sum over spheres of |sum of forces| over the sum of |bond force|
+};
+
+/// Wall time spent so far in the phases of steps, s.
+struct PhaseTimes {
+    double search = 0.0;
+    double forces = 0.0;
+    double motion = 0.0;
 };
 
 /// The step that a user asked for is above the stable one.
@@ -68,6 +77,10 @@ class Model {
     [[nodiscard]] const std::vector<BondFailure>& failures() const { return failures_; } ///< of the last step, in bond order
     [[nodiscard]] std::size_t broken() const { return broken_; }
     [[nodiscard]] std::int64_t searches() const { return searches_; }
+    [[nodiscard]] const PhaseTimes& phase_times() const { return phase_times_; }
+
+    /// Number of threads of the steps to come; at first that of OpenMP. The results do not depend on it.
+    void set_threads(int threads) { team_ = std::make_unique<Team>(threads); }
 
     /// Hash (FNV-1a, 64 bits) of positions, velocities, spins and all bond and contact states: equal if and only if the bits are.
     [[nodiscard]] std::uint64_t state_hash() const;
@@ -83,13 +96,25 @@ class Model {
     std::vector<Material> materials;
     Bonds bonds;
     Contacts contacts;
+    Loads loads; ///< what is added between steps acts in the next one
     std::vector<Platen> platens;
     std::vector<Pressure> pressures; ///< set their values between steps
 
   private:
+    // What the pairs of one block of spheres come to in a step.
+    struct BlockSums {
+        BondDissipation bonds;
+        ContactEnergies contacts;
+        std::vector<PlatenSums> platens;
+        double pressure = 0.0; // work, J
+        std::vector<BondFailure> failures;
+    };
+
     void search();
+    void arrange();
     void forces(double elapsed, bool measure);
-    void fail_by_averaged_stress(bool measure);
+    void block_forces(std::size_t block, const BondView& view, double elapsed, bool measure);
+    void fail_by_averaged_stress();
     void motion(const std::vector<double>& speeds, bool measure);
     void check() const;
 
@@ -115,6 +140,10 @@ class Model {
     std::vector<double> averaged_value_;
     std::vector<std::uint8_t> shear_governs_;
     std::vector<BondFailure> failures_;
+    std::unique_ptr<Team> team_;
+    PhaseTimes phase_times_;
+    std::vector<BlockSums> block_sums_;
+    std::vector<MotionSums> block_motion_;
     std::vector<Vec3> reactions_; // of the platens at the last forces, for the trapezoidal work
 };
 

@@ -70,11 +70,11 @@ Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) c
         }
     };
     for (std::size_t k = 0; k < b.size(); ++k) {
-        add(static_cast<std::size_t>(b.i[k]), static_cast<std::size_t>(b.j[k]), Vec3(b.forces[k].force));
+        add(static_cast<std::size_t>(b.i[k]), static_cast<std::size_t>(b.j[k]), b.force.at(k));
     }
     const Contacts& c = model.contacts;
     for (std::size_t k = 0; k < c.size(); ++k) {
-        add(static_cast<std::size_t>(c.i[k]), static_cast<std::size_t>(c.j[k]), Vec3(c.forces[k].force));
+        add(static_cast<std::size_t>(c.i[k]), static_cast<std::size_t>(c.j[k]), c.force.at(k));
     }
     const Mat3 mean = sum / region.volume();
     return 0.5 * (mean + mean.transpose());

@@ -5,13 +5,14 @@
 
 #include <ctime>
 
+#include "core/parallel/instruction_set.hpp"
 namespace proveta {
 
 std::string version() { return PROVETA_VERSION; }
 
 std::string version_text() {
     return fmt::format("proveta {}\ncompiler {}\nbuild {}\nvector kernel {}\nthreads {}", version(), PROVETA_COMPILER, PROVETA_BUILD,
-                       bond_kernel_name(), omp_get_max_threads());
+                       instruction_set_name(), omp_get_max_threads());
 }
 
 std::string now_utc() {
@@ -35,7 +36,7 @@ input::Json manifest(const Deck& deck, const Bench& bench, const std::string& co
     j["version"] = version();
     j["compiler"] = PROVETA_COMPILER;
     j["build"] = PROVETA_BUILD;
-    j["vector_kernel"] = bond_kernel_name();
+    j["vector_kernel"] = instruction_set_name();
     j["threads"] = omp_get_max_threads();
     j["started"] = started;
     j["deck_file"] = deck.source;

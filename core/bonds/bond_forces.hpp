@@ -1,8 +1,7 @@
-// One pass over all bonds: kinematics, law, forces, dissipation.
+// One pass over the bonds of a block of spheres: kinematics, law, forces, dissipation.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "core/bonds/bonds.hpp"
@@ -16,12 +15,13 @@ struct BondFailure {
     FailureMode mode;
 };
 
-/// Advances every bond by one step of dt seconds from the spheres' positions and (half a step older) velocities, and fills
-/// `bonds.forces`. With `measure`, also the output arrays of Bonds. Failures are appended in bond order. Sums are formed block by block
-/// in a fixed order, so nothing depends on the number of threads or on the width of the processor's vectors.
-BondDissipation bond_forces(const Spheres& spheres, Bonds& bonds, double dt, bool measure, std::vector<BondFailure>& failures);
+/// Makes room for what a step with or without `measure` writes.
+void prepare_bond_forces(Bonds& bonds, bool measure);
 
-/// The vector width that `bond_forces` uses on this machine: "AVX-512", "AVX2" or "baseline".
-std::string bond_kernel_name();
+/// Advances the bonds of one block of spheres by one step of dt seconds from the spheres' positions and (half a step older) velocities, and
+/// adds their forces to the rows of the loads. With `measure`, also the output arrays of Bonds. Failures are appended in bond order.
+/// Nothing depends on the width of the processor's vectors, nor on which thread does what: blocks touch no common memory.
+BondDissipation bond_forces(const SphereView& spheres, const Bonds& bonds, const BondView& view, std::size_t block, double* rows, double dt,
+                            bool measure, std::vector<BondFailure>& failures);
 
 } // namespace proveta

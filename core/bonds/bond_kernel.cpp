@@ -1,7 +1,8 @@
-// The bond loop. Compiled once per instruction set; PROVETA_BOND_KERNEL is the name of the variant's entry point.
+// The bond loop. Compiled once per instruction set; PROVETA_VARIANT names the variant's entry point.
 #include "core/bonds/bond_kernel.hpp"
 
 #include "core/geometry/lanes.hpp"
+#include "core/parallel/variant.hpp"
 
 namespace proveta {
 
@@ -9,21 +10,22 @@ namespace {
 
 // The laws under one name, for the loop.
 struct Dempack {
-    template <class... Args> static auto advance(Args&&... args) { return dempack::advance(args...); }
-    template <class... Args> static auto stored_energy(Args&&... args) { return dempack::stored_energy(args...); }
-    template <class... Args> static auto failure_criterion(Args&&... args) { return dempack::failure_criterion(args...); }
+    template <class... Args> PROVETA_INLINE static auto advance(Args&&... args) { return dempack::advance(args...); }
+    template <class... Args> PROVETA_INLINE static auto stored_energy(Args&&... args) { return dempack::stored_energy(args...); }
+    template <class... Args> PROVETA_INLINE static auto failure_criterion(Args&&... args) { return dempack::failure_criterion(args...); }
 };
 struct Released {
-    template <class... Args> static auto advance(Args&&... args) { return released::advance(args...); }
-    template <class... Args> static auto stored_energy(Args&&... args) { return released::stored_energy(args...); }
-    template <class... Args> static auto failure_criterion(Args&&... args) { return released::failure_criterion(args...); }
+    template <class... Args> PROVETA_INLINE static auto advance(Args&&... args) { return released::advance(args...); }
+    template <class... Args> PROVETA_INLINE static auto stored_energy(Args&&... args) { return released::stored_energy(args...); }
+    template <class... Args> PROVETA_INLINE static auto failure_criterion(Args&&... args) { return released::failure_criterion(args...); }
 };
 
 // Bending and twisting of the group at b; stays: share of the stiffness that damage has left, before and after the step. Returns the stored
 // energy; what damage takes of it goes to `lost`.
+// The moment of j on i goes to `couple`.
 template <class T>
-inline T bond_moments(const BondView& bonds, const BondLaw& law, std::size_t b, const PairKinematics<T>& pair, const T& k_n, const T& area,
-                      const T& stayed, const T& stays, T& lost) {
+PROVETA_INLINE T bond_moments(const BondView& bonds, const BondLaw& law, std::size_t b, const PairKinematics<T>& pair, const T& k_n, const T& area,
+                      const T& stayed, const T& stays, T (&couple)[3], T& lost) {
     T theta[3];
     T axis[3]; // rotation of the bond's frame in the step: n x change of n, and the spin about n
     T old[3];
@@ -56,24 +58,41 @@ inline T bond_moments(const BondView& bonds, const BondLaw& law, std::size_t b, 
         stored = stored + 0.5 * stays * moment * next[c];
         crossed = crossed + 0.5 * before * kept;
         store(&bonds.rotation[c][b], next[c]);
-        store(&bonds.couple[c][b], stays * moment);
+        couple[c] = stays * moment;
+        store(&bonds.couple[c][b], couple[c]);
     }
     lost = crossed * (stayed - stays);
     return stored;
 }
 
 // Share of the stiffness against moments that damage has left.
-template <class T> inline T intact(const T& d_n, const T& d_t) {
+template <class T> PROVETA_INLINE T intact(const T& d_n, const T& d_t) {
     using std::max;
     return T(1.0) - max(d_n, d_t);
 }
 
+// Whether the group may have a history of plastic shortening or damage, and that it has one from now on.
+template <class T> PROVETA_INLINE bool any_worn(const std::uint8_t* worn) {
+    std::uint8_t some = 0;
+    for (std::size_t k = 0; k < lane_count<T>(); ++k) {
+        some |= worn[k];
+    }
+    return some != 0;
+}
+template <class T> PROVETA_INLINE void wear(std::uint8_t* worn) {
+    for (std::size_t k = 0; k < lane_count<T>(); ++k) {
+        worn[k] = 1;
+    }
+}
+
 // One group of lane_count<T>() bonds starting at b.
 template <class Law, class T, bool damped, bool moments, bool measure>
-inline void bond_group(const SphereView& s, const BondView& bonds, const BondLaw& law, std::size_t b, double dt, BlockResult& out) {
+PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const BondLaw& law, double* rows, std::size_t begin, std::size_t b,
+                       double dt, RunResult& out) {
     using std::sqrt;
     const T u[3] = {load<T>(&bonds.slip[0][b]), load<T>(&bonds.slip[1][b]), load<T>(&bonds.slip[2][b])};
-    const auto pair = pair_kinematics(s, &bonds.i[b], &bonds.j[b], load_shares<T>(&bonds.forces[b]), u, dt);
+    const T share = load<T>(&bonds.share[b]);
+    const auto pair = pair_kinematics(s, &bonds.i[b], &bonds.j[b], share, u, dt);
 
     dempack::Kinematics<T> kin;
     kin.shortening = load<T>(&bonds.length[b]) - pair.distance;
@@ -83,9 +102,13 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const BondLaw
         kin.slip[c] = pair.slip[c];
         state.u_t[c] = pair.turned[c];
     }
-    state.u_p = load<T>(&bonds.plastic[b]);
-    state.d_n = load<T>(&bonds.damage_n[b]);
-    state.d_t = load<T>(&bonds.damage_t[b]);
+    state.u_p = state.d_n = state.d_t = T(0.0);
+    if (any_worn<T>(&bonds.worn[b])) {
+        state.u_p = load<T>(&bonds.plastic[b]);
+        state.d_n = load<T>(&bonds.damage_n[b]);
+        state.d_t = load<T>(&bonds.damage_t[b]);
+    }
+    const T u_p_old = state.u_p;
     const T d_n_old = state.d_n;
     const T d_t_old = state.d_t;
 
@@ -108,18 +131,21 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const BondLaw
     }
 
     T in_moments = T(0.0);
+    T couple[3] = {T(0.0), T(0.0), T(0.0)};
     if constexpr (moments) {
         T lost;
-        in_moments = bond_moments(bonds, law, b, pair, k_n, area, intact(d_n_old, d_t_old), intact(state.d_n, state.d_t), lost);
+        in_moments = bond_moments(bonds, law, b, pair, k_n, area, intact(d_n_old, d_t_old), intact(state.d_n, state.d_t), couple,
+                                  lost);
         r.damage_work = r.damage_work + lost;
     }
 
-    store_pair_forces(&bonds.forces[b], pair, normal, r.shear);
+    const auto force = add_pair_loads(rows, &bonds.i[b], &bonds.row_j[b], pair, share, normal, r.shear, couple);
     for (int c = 0; c < 3; ++c) {
         store(&bonds.slip[c][b], state.u_t[c]);
     }
 
-    if (any_of(r.plastic_work != T(0.0)) || any_of(state.u_p != load<T>(&bonds.plastic[b]))) {
+    if (any_of(r.plastic_work != T(0.0)) || any_of(state.u_p != u_p_old)) {
+        wear<T>(&bonds.worn[b]);
         store(&bonds.plastic[b], state.u_p);
         for (std::size_t k = 0; k < lane_count<T>(); ++k) {
             out.dissipation.plastic += in_lane(r.plastic_work, k);
@@ -131,6 +157,7 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const BondLaw
         }
     }
     if (any_of(state.d_n > d_n_old) || any_of(state.d_t > d_t_old) || any_of(r.damage_work != T(0.0))) {
+        wear<T>(&bonds.worn[b]);
         store(&bonds.damage_n[b], state.d_n);
         store(&bonds.damage_t[b], state.d_t);
         for (std::size_t k = 0; k < lane_count<T>(); ++k) {
@@ -139,12 +166,15 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const BondLaw
             bonds.damage_work[b + k] += work;
             if (mask_lane(broken, k) && bonds.mode[b + k] == 0) {
                 bonds.mode[b + k] = in_lane(state.d_n, k) >= 1.0 ? 1 : 2; // FailureMode: tension, shear
-                out.failures[out.failed++] = static_cast<std::uint32_t>(b + k);
+                bonds.failures[begin + out.failed++] = static_cast<std::uint32_t>(b + k);
             }
         }
     }
     if constexpr (measure) {
         const T shear = sqrt(r.shear[0] * r.shear[0] + r.shear[1] * r.shear[1] + r.shear[2] * r.shear[2]);
+        for (int c = 0; c < 3; ++c) {
+            store(&bonds.force[c][b], force.x[c]);
+        }
         store(&bonds.normal[b], r.normal);
         store(&bonds.shear[b], shear);
         store(&bonds.criterion[b], Law::failure_criterion(law, k_n, area, kin.shortening, r.normal, shear, state));
@@ -153,23 +183,23 @@ inline void bond_group(const SphereView& s, const BondView& bonds, const BondLaw
 }
 
 template <class Law, bool damped, bool moments, bool measure>
-void run(const SphereView& s, const BondView& bonds, const BondLaw& law, std::size_t begin, std::size_t end, double dt, BlockResult& out) {
+void run(const SphereView& s, const BondView& bonds, const BondLaw& law, double* rows, std::size_t begin, std::size_t end, double dt,
+         RunResult& out) {
     std::size_t b = begin;
     for (; b + lane_count<Lanes>() <= end; b += lane_count<Lanes>()) {
-        bond_group<Law, Lanes, damped, moments, measure>(s, bonds, law, b, dt, out);
+        bond_group<Law, Lanes, damped, moments, measure>(s, bonds, law, rows, begin, b, dt, out);
     }
     for (; b < end; ++b) {
-        bond_group<Law, double, damped, moments, measure>(s, bonds, law, b, dt, out);
+        bond_group<Law, double, damped, moments, measure>(s, bonds, law, rows, begin, b, dt, out);
     }
 }
 
 } // namespace
 
-void PROVETA_BOND_KERNEL(const SphereView& s, const BondView& bonds, const BondLaw& law, std::size_t begin, std::size_t end, double dt,
-                         bool measure, BlockResult& out) {
-    out.dissipation = {};
-    out.failed = 0;
-    const auto pick = [&](auto* measured, auto* unmeasured) { (measure ? measured : unmeasured)(s, bonds, law, begin, end, dt, out); };
+void PROVETA_VARIANT(bond_kernel)(const SphereView& s, const BondView& bonds, const BondLaw& law, double* rows, std::size_t begin,
+                                  std::size_t end, double dt, bool measure, RunResult& out) {
+    out = {};
+    const auto pick = [&](auto* measured, auto* unmeasured) { (measure ? measured : unmeasured)(s, bonds, law, rows, begin, end, dt, out); };
     // Rare variants take dashpots along, which cost them little.
     if (law.kind == LawKind::released) {
         pick(run<Released, true, false, true>, run<Released, true, false, false>);

@@ -40,11 +40,11 @@ struct BondLaw : released::Parameters {
     [[nodiscard]] bool has_moments() const { return bending > 0.0 || twisting > 0.0; }
 
     /// Bending stiffness of a bond, N m. k_n in N/m, area in m2.
-    template <class T> [[nodiscard]] T bending_stiffness(const T& k_n, const T& area) const {
+    template <class T> [[nodiscard]] PROVETA_INLINE T bending_stiffness(const T& k_n, const T& area) const {
         return bending / (4.0 * std::numbers::pi) * k_n * area;
     }
     /// Twisting stiffness of a bond, N m.
-    template <class T> [[nodiscard]] T twisting_stiffness(const T& k_n, const T& area) const {
+    template <class T> [[nodiscard]] PROVETA_INLINE T twisting_stiffness(const T& k_n, const T& area) const {
         return twisting / (2.0 * std::numbers::pi) * shear_ratio * k_n * area;
     }
 };

@@ -15,16 +15,18 @@ namespace proveta {
 /// How a bond failed. Kept for life.
 enum class FailureMode : std::uint8_t { intact = 0, tension = 1, shear = 2 };
 
-/// A run of bonds that share a material pair and are treated in one go; the unit of work of a thread.
+/// A run of bonds that share a material pair and whose first spheres are of one block of spheres (core/contacts/loads.hpp).
 struct BondBlock {
     std::uint32_t begin;
     std::uint32_t end;
     std::uint32_t law; ///< index into Bonds::laws
 };
 
-/// Bonds of a specimen, sorted by material pair and then along the spheres' space-filling order. One entry per bond; SI units.
+/// Bonds of a specimen, sorted by the block of sphere i, then by material pair, then by i and j. One entry per bond; SI units.
 struct Bonds {
     std::vector<std::int32_t> i, j;         ///< the two spheres, i < j
+    std::vector<std::int32_t> row_j;        ///< row of the loads that j's share goes to
+    std::vector<double> share;              ///< lever arm of i over the distance, 0 to 1
     std::vector<double> length;             ///< d0, distance at the start, m
     std::vector<double> area;               ///< m2
     std::vector<double> stiffness;          ///< k_n, N/m
@@ -34,16 +36,19 @@ struct Bonds {
     std::vector<double> damage_n, damage_t; ///< 0 to 1
     std::vector<double> damage_work;        ///< dissipated by damage and failure so far, J
     std::vector<std::uint8_t> mode;         ///< FailureMode
-    std::vector<PairForce> forces;
+    std::vector<std::uint8_t> worn;         ///< 0 as long as plastic shortening and damage are surely zero, so that they need not be read
+    std::vector<std::uint32_t> failures;    ///< scratch of the kernel
     Incidence incidence;  ///< bonds of each sphere
     VectorField rotation; ///< theta of bonds with moments, rad; empty without
     VectorField couple;   ///< moment of j on i of bonds with moments, N m; empty without
     std::vector<BondLaw> laws;
     std::vector<BondBlock> blocks;
+    std::vector<std::uint32_t> first_block; ///< of each block of spheres, and the number of blocks
     bool damped = false;  ///< some bond has a dashpot
     bool moments = false; ///< some bond resists bending or twisting
 
     // Filled on request by `bond_forces`, for output.
+    VectorField force;             ///< of j on i, N
     std::vector<double> normal;    ///< F_n without dashpot, compression positive, N
     std::vector<double> shear;     ///< |F_t|, N
     std::vector<double> criterion; ///< failure criterion state (5.44), 0 to 1

@@ -75,20 +75,20 @@ template <class T> struct Response {
 
 /// Length of the softening branch, u_f - u_l, m. u_l: limit displacement now; u_l0: the same without normal force; end: u_f by fracture
 /// energy (0: by ratio).
-template <class T> inline T softening_length(double ratio, double end, const T& u_l, const T& u_l0) {
+template <class T> PROVETA_INLINE T softening_length(double ratio, double end, const T& u_l, const T& u_l0) {
     using std::max;
     return end > 0.0 ? max(T(end) - u_l0, T(smallest)) : ratio * u_l;
 }
 
 /// Damage that belongs to displacement u >= u_l (5.23), 1 from u_f on.
-template <class T> inline T damage_at(const T& u, const T& u_l, const T& length, bool by_energy) {
+template <class T> PROVETA_INLINE T damage_at(const T& u, const T& u_l, const T& length, bool by_energy) {
     using std::min;
     const T share = (u - u_l) / length;
     return min(by_energy ? share * (u_l + length) / u : share, T(1.0));
 }
 
 /// Force of the compression envelope at shortening u (5.28): slope k_n up to LCS1, k_n / YRC_i beyond LCS_i. Valid for u >= 0.
-template <class T> inline T compression_envelope(const Parameters& p, const T& k_n, const T& area, const T& u) {
+template <class T> PROVETA_INLINE T compression_envelope(const Parameters& p, const T& k_n, const T& area, const T& u) {
     const T trial = k_n * u;
     T bend = p.lcs[0] * area; // elastic force k_n u at which the branch begins
     T base = bend;            // envelope force there
@@ -107,7 +107,7 @@ template <class T> inline T compression_envelope(const Parameters& p, const T& k
 /// One step of one bond. Pure: everything comes in by argument and leaves by state and result.
 ///
 /// k_n in N/m and area in m2 are those of the bond; state is brought to the end of the step. Failure shows as damage reaching 1.
-template <class T> inline Response<T> advance(const Parameters& p, const T& k_n, const T& area, const Kinematics<T>& kin, State<T>& s) {
+template <class T> PROVETA_INLINE Response<T> advance(const Parameters& p, const T& k_n, const T& area, const Kinematics<T>& kin, State<T>& s) {
     using std::max;
     using std::min;
     using std::sqrt;
@@ -198,7 +198,7 @@ template <class T> inline Response<T> advance(const Parameters& p, const T& k_n,
 }
 
 /// Energy that the bond can give back, J: normal and tangential springs. Same arguments as `advance`, after it.
-template <class T> inline T stored_energy(const Parameters& p, const T& k_n, const T& shortening, const T& normal, const State<T>& s) {
+template <class T> PROVETA_INLINE T stored_energy(const Parameters& p, const T& k_n, const T& shortening, const T& normal, const State<T>& s) {
     using std::max;
     const T elongation = s.u_p - shortening;
     const T in_normal = 0.5 * select(elongation > T(0.0), -normal * elongation, normal * normal / k_n);
@@ -210,7 +210,7 @@ template <class T> inline T stored_energy(const Parameters& p, const T& k_n, con
 
 /// How near the bond is to failure, 0 to 1 (5.44): the larger of shear force over its limit and, in tension, e / u_f. 1 when failed.
 template <class T>
-inline T failure_criterion(const Parameters& p, const T& k_n, const T& area, const T& shortening, const T& normal, const T& shear,
+PROVETA_INLINE T failure_criterion(const Parameters& p, const T& k_n, const T& area, const T& shortening, const T& normal, const T& shear,
                            const State<T>& s) {
     using std::max;
     using std::min;

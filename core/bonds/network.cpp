@@ -4,8 +4,10 @@
 #include <map>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/bonds/bonds.hpp"
+#include "core/contacts/loads.hpp"
 
 namespace proveta {
 
@@ -29,19 +31,23 @@ void Bonds::resize(std::size_t n) {
     i.resize(n);
     j.resize(n);
     mode.resize(n, 0);
-    for (auto* array : {&length, &area, &stiffness, &dashpot, &plastic, &damage_n, &damage_t, &damage_work}) {
+    for (auto* array : {&share, &length, &area, &stiffness, &dashpot, &plastic, &damage_n, &damage_t, &damage_work}) {
         array->resize(n, 0.0);
     }
     slip.resize(n);
-    forces.resize(n);
+    row_j.resize(n);
+    worn.resize(n, 0);
+    failures.resize(n);
 }
 
 BondView Bonds::view() {
     return {i.data(),
             j.data(),
+            row_j.data(),
             length.data(),
             area.data(),
             stiffness.data(),
+            share.data(),
             dashpot.data(),
             {slip.x.data(), slip.y.data(), slip.z.data()},
             plastic.data(),
@@ -49,7 +55,9 @@ BondView Bonds::view() {
             damage_t.data(),
             damage_work.data(),
             mode.data(),
-            forces.data(),
+            worn.data(),
+            failures.data(),
+            {force.x.data(), force.y.data(), force.z.data()},
             normal.data(),
             shear.data(),
             criterion.data(),
@@ -99,71 +107,86 @@ std::vector<Pair> bonded_pairs(const Spheres& spheres, const BondingRule& rule, 
 Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<Pair>& pairs,
                  const std::vector<std::uint8_t>& skin, std::vector<double>& weight, const Areas* given) {
     // Material pairs get a law each, in ascending order of their indices.
-    auto key = [&](const Pair& p) {
+    struct PairLaw {
+        Material material;
+        const Areas* areas = nullptr;
+        std::uint32_t law = 0;
+    };
+    const auto key = [&](const Pair& p) {
         return std::minmax({spheres.material[static_cast<std::size_t>(p.i)], spheres.material[static_cast<std::size_t>(p.j)]});
     };
-    std::map<std::pair<int, int>, std::vector<Pair>> sorted;
+    std::map<std::pair<int, int>, PairLaw> laws;
     for (const auto& p : pairs) {
-        sorted[key(p)].push_back(p);
+        laws.try_emplace(key(p));
     }
-
     std::map<AreaRule, Areas> by_rule;
     Bonds b;
     b.resize(pairs.size());
     weight.assign(spheres.size(), 1.0);
-    std::map<Pair, std::size_t> place;
-    const bool mixed = sorted.size() > 1;
-    if (mixed) {
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            place[pairs[k]] = k;
-        }
-    }
-    std::size_t at = 0;
-    for (const auto& [both, members] : sorted) {
-        const Material m = equivalent(materials[static_cast<std::size_t>(both.first)], materials[static_cast<std::size_t>(both.second)]);
-        auto found = by_rule.find(m.area_rule);
-        if (found == by_rule.end()) {
-            const bool takes = m.area_rule == AreaRule::laguerre;
+    for (auto& [both, own] : laws) {
+        own.material = equivalent(materials[static_cast<std::size_t>(both.first)], materials[static_cast<std::size_t>(both.second)]);
+        const AreaRule rule = own.material.area_rule;
+        if (!by_rule.contains(rule)) {
+            const bool takes = rule == AreaRule::laguerre;
             if (takes && (given == nullptr || given->pair.size() != pairs.size() || given->weight.size() != spheres.size())) {
                 throw std::invalid_argument("the area rule takes areas that were not given");
             }
-            found = by_rule.emplace(m.area_rule, takes ? *given : effective_areas(m.area_rule, spheres, pairs, skin)).first;
+            by_rule.emplace(rule, takes ? *given : effective_areas(rule, spheres, pairs, skin));
         }
-        const Areas& areas = found->second;
-        const auto law = static_cast<std::uint32_t>(b.laws.size());
-        b.laws.push_back(bond_law(m));
-        const std::size_t first = at;
-        for (std::size_t k = 0; k < members.size(); ++k) {
-            const double area = areas.pair[mixed ? place.at(members[k]) : k];
-            if (area <= 0.0) {
-                continue;
-            }
-            const auto i = static_cast<std::size_t>(members[k].i);
-            const auto j = static_cast<std::size_t>(members[k].j);
-            const double d = (spheres.position.at(j) - spheres.position.at(i)).norm();
-            b.i[at] = members[k].i;
-            b.j[at] = members[k].j;
-            b.length[at] = d;
-            b.area[at] = m.area_factor * area;
-            b.stiffness[at] = m.normal_factor * m.young_modulus * b.area[at] / d;
-            const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
-            b.dashpot[at] = 2.0 * m.local_damping * std::sqrt(reduced * b.stiffness[at]);
-            b.damped = b.damped || m.local_damping > 0.0;
-            b.moments = b.moments || m.bond.has_moments();
-            b.forces[at].share_i = 0.5 * (d + spheres.radius[i] - spheres.radius[j]) / d;
-            ++at;
-        }
-        for (std::size_t k = first; k < at; k += bond_block) {
-            b.blocks.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(std::min(at, k + bond_block)), law});
-        }
+        own.areas = &by_rule.at(rule);
+        own.law = static_cast<std::uint32_t>(b.laws.size());
+        b.laws.push_back(bond_law(own.material));
+        b.damped = b.damped || own.material.local_damping > 0.0;
+        b.moments = b.moments || own.material.bond.has_moments();
         for (std::size_t s = 0; s < spheres.size(); ++s) {
-            const int material = spheres.material[s];
-            if (both.first == both.second && material == both.first) {
-                weight[s] = m.area_factor * areas.weight[s];
+            if (both.first == both.second && spheres.material[s] == both.first) {
+                weight[s] = own.material.area_factor * own.areas->weight[s];
             }
         }
     }
-    b.resize(at);
+
+    struct Entry {
+        std::uint32_t block, law;
+        std::size_t pair;
+    };
+    std::vector<Entry> order;
+    order.reserve(pairs.size());
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const PairLaw& own = laws.at(key(pairs[k]));
+        if (own.areas->pair[k] > 0.0) {
+            order.push_back({static_cast<std::uint32_t>(pairs[k].i) / spheres_per_block, own.law, k});
+        }
+    }
+    std::sort(order.begin(), order.end(), [&](const Entry& x, const Entry& y) {
+        return std::tie(x.block, x.law, pairs[x.pair]) < std::tie(y.block, y.law, pairs[y.pair]);
+    });
+    b.resize(order.size());
+    for (std::size_t at = 0; at < order.size(); ++at) {
+        const Entry& entry = order[at];
+        const Pair& pair = pairs[entry.pair];
+        const PairLaw& own = laws.at(key(pair));
+        const Material& m = own.material;
+        const auto i = static_cast<std::size_t>(pair.i);
+        const auto j = static_cast<std::size_t>(pair.j);
+        const double d = (spheres.position.at(j) - spheres.position.at(i)).norm();
+        b.i[at] = pair.i;
+        b.j[at] = pair.j;
+        b.length[at] = d;
+        b.area[at] = m.area_factor * own.areas->pair[entry.pair];
+        b.stiffness[at] = m.normal_factor * m.young_modulus * b.area[at] / d;
+        const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
+        b.dashpot[at] = 2.0 * m.local_damping * std::sqrt(reduced * b.stiffness[at]);
+        b.share[at] = 0.5 * (d + spheres.radius[i] - spheres.radius[j]) / d;
+        const bool starts = at == 0 || order[at - 1].block != entry.block || order[at - 1].law != entry.law;
+        if (starts) {
+            while (b.first_block.size() <= entry.block) {
+                b.first_block.push_back(static_cast<std::uint32_t>(b.blocks.size()));
+            }
+            b.blocks.push_back({static_cast<std::uint32_t>(at), 0, entry.law});
+        }
+        b.blocks.back().end = static_cast<std::uint32_t>(at + 1);
+    }
+    b.first_block.resize((spheres.size() + spheres_per_block - 1) / spheres_per_block + 1, static_cast<std::uint32_t>(b.blocks.size()));
     if (b.moments) {
         b.rotation.resize(b.size());
         b.couple.resize(b.size());

@@ -32,7 +32,7 @@ struct Parameters : dempack::Parameters {
 template <class T> using State = dempack::State<T>;
 
 /// Slope of the envelope at elastic trial force k_n u, over k_n.
-template <class T> inline T envelope_slope(const Parameters& p, const T& k_n, const T& area, const T& u) {
+template <class T> PROVETA_INLINE T envelope_slope(const Parameters& p, const T& k_n, const T& area, const T& u) {
     T slope = T(1.0);
     T bend = p.lcs[0] * area;
     for (int b = 0; b < 3; ++b) {
@@ -46,7 +46,7 @@ template <class T> inline T envelope_slope(const Parameters& p, const T& k_n, co
 
 /// Normal force at shortening u for the largest shortening `most` and softening d; `broken` bonds take compression only.
 template <class T, class Mask>
-inline T normal_force(const Parameters& p, const T& k_n, const T& area, const T& u, const T& most, const T& d, const Mask& broken) {
+PROVETA_INLINE T normal_force(const Parameters& p, const T& k_n, const T& area, const T& u, const T& most, const T& d, const Mask& broken) {
     using std::max;
     const T zero = T(0.0);
     const T along = dempack::compression_envelope(p, k_n, area, max(u, zero));
@@ -59,7 +59,7 @@ inline T normal_force(const Parameters& p, const T& k_n, const T& area, const T&
 }
 
 /// Energy that the law takes as stored, J: F_n^2 / (2 k_n) and k_t u_t^2 / 2.
-template <class T> inline T stored_energy(const Parameters& p, const T& k_n, const T& /*shortening*/, const T& normal, const State<T>& s) {
+template <class T> PROVETA_INLINE T stored_energy(const Parameters& p, const T& k_n, const T& /*shortening*/, const T& normal, const State<T>& s) {
     const T u2 = s.u_t[0] * s.u_t[0] + s.u_t[1] * s.u_t[1] + s.u_t[2] * s.u_t[2];
     return 0.5 * normal * normal / k_n + 0.5 * k_n * p.shear_ratio * u2;
 }
@@ -67,7 +67,7 @@ template <class T> inline T stored_energy(const Parameters& p, const T& k_n, con
 /// One step of one bond; arguments as dempack::advance. What the law gains or loses beyond its stored energy (`stored_energy`) is booked as
 /// plastic work in compression and as damage in tension and shear, and may be negative: the law's jumps make energy.
 template <class T>
-inline dempack::Response<T> advance(const Parameters& p, const T& k_n, const T& area, const dempack::Kinematics<T>& kin, State<T>& s) {
+PROVETA_INLINE dempack::Response<T> advance(const Parameters& p, const T& k_n, const T& area, const dempack::Kinematics<T>& kin, State<T>& s) {
     using std::max;
     using std::min;
     using std::sqrt;
@@ -133,7 +133,7 @@ inline dempack::Response<T> advance(const Parameters& p, const T& k_n, const T& 
 
 /// As dempack::failure_criterion: the larger of shear over its limit and tension over sigma_f A.
 template <class T>
-inline T failure_criterion(const Parameters& p, const T& /*k_n*/, const T& area, const T& /*shortening*/, const T& normal, const T& shear,
+PROVETA_INLINE T failure_criterion(const Parameters& p, const T& /*k_n*/, const T& area, const T& /*shortening*/, const T& normal, const T& shear,
                            const State<T>& s) {
     using std::max;
     using std::min;

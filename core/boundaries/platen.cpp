@@ -66,6 +66,7 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
     for (const auto& m : materials) {
         pairs.push_back(p.face ? wall_pair(m, *p.face, p.friction) : LoosePair{});
     }
+    p.force.resize(p.sphere.size());
     p.contact_distance.clear();
     p.law.clear();
     for (const auto id : p.sphere) {
@@ -86,12 +87,18 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
     }
 }
 
-PlatenEnergies platen_forces(Spheres& spheres, Platen& p, double elapsed, double dt) {
-    PlatenEnergies sum;
-    p.reaction = Vec3::Zero();
-    p.force.resize(p.sphere.size());
-    p.touching = 0;
-    for (std::size_t k = 0; k < p.sphere.size(); ++k) {
+void PlatenSums::add(const PlatenSums& other) {
+    stored += other.stored;
+    friction += other.friction;
+    dashpot += other.dashpot;
+    reaction += other.reaction;
+    touching += other.touching;
+}
+
+PlatenSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& block, double elapsed, double dt, Loads& loads) {
+    PlatenSums sum;
+    const ListedRange range = listed_in(p.sphere, block);
+    for (std::size_t k = range.begin; k < range.end; ++k) {
         const auto s = static_cast<std::size_t>(p.sphere[k]);
         const double distance = (spheres.position.z[s] - p.position) * p.inward;
         const double approach = (p.velocity - spheres.velocity.z[s]) * p.inward * elapsed;
@@ -113,10 +120,9 @@ PlatenEnergies platen_forces(Spheres& spheres, Platen& p, double elapsed, double
             torque += Vec3(rolling.torque[0], rolling.torque[1], rolling.torque[2]);
             sum.friction += rolling.power * elapsed;
         }
-        spheres.external_force.add(s, force);
-        spheres.external_torque.add(s, torque);
-        p.reaction -= force;
-        p.touching += r.normal > 0.0 ? 1 : 0;
+        loads.add(s, force, torque);
+        sum.reaction -= force;
+        sum.touching += r.normal > 0.0 ? 1 : 0;
         sum.stored += r.stored;
         sum.friction += r.friction_work;
         sum.dashpot += r.dashpot_work;

@@ -6,16 +6,21 @@
 #include <vector>
 
 #include "core/bonds/material.hpp"
+#include "core/contacts/loads.hpp"
 #include "core/contacts/loose.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
 
-/// Sums over a platen's contacts of one step, J.
-struct PlatenEnergies {
+/// Sums over a platen's contacts of one step, or over those of one block of spheres; energies in J.
+struct PlatenSums {
     double stored = 0.0;
     double friction = 0.0;
     double dashpot = 0.0;
+    Vec3 reaction = Vec3::Zero(); ///< force of the specimen on the platen, N
+    int touching = 0;
+
+    void add(const PlatenSums& other);
 };
 
 /// A rigid plane z = `position` whose specimen lies on the side `inward` (+1 above it, -1 below it). Without a face material it is the cap
@@ -62,8 +67,8 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
 /// Fills in what follows from the listed spheres: contact distances and laws.
 void set_up_platen(const Spheres& spheres, const std::vector<Material>& materials, Platen& platen);
 
-/// Advances the platen's contacts by `elapsed` seconds: adds to the spheres' external forces and torques and sets `reaction`. dt: the step
-/// that the forces will act for, s.
-PlatenEnergies platen_forces(Spheres& spheres, Platen& platen, double elapsed, double dt);
+/// Advances the platen's contacts with one block of spheres by `elapsed` seconds and adds their forces to the loads. dt: the step that the
+/// forces will act for, s.
+PlatenSums platen_forces(const Spheres& spheres, Platen& platen, const SphereBlock& block, double elapsed, double dt, Loads& loads);
 
 } // namespace proveta

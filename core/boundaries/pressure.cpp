@@ -2,10 +2,10 @@
 
 namespace proveta {
 
-double pressure_forces(Spheres& spheres, Pressure& p, double dt) {
-    p.force.resize(p.sphere.size());
+double pressure_forces(const Spheres& spheres, Pressure& p, const SphereBlock& block, double dt, Loads& loads) {
     double work = 0.0;
-    for (std::size_t k = 0; k < p.sphere.size(); ++k) {
+    const ListedRange range = listed_in(p.sphere, block);
+    for (std::size_t k = range.begin; k < range.end; ++k) {
         const auto s = static_cast<std::size_t>(p.sphere[k]);
         Vec3 normal = p.normal.at(k);
         if (p.radial) {
@@ -16,7 +16,7 @@ double pressure_forces(Spheres& spheres, Pressure& p, double dt) {
         const Vec3 force = -p.value * p.area[k] * normal;
         work += 0.5 * dt * (force + p.force.at(k)).dot(spheres.velocity.at(s));
         p.force.set(k, force);
-        spheres.external_force.add(s, force);
+        loads.add(s, force, Vec3::Zero());
     }
     return work;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/contacts/loads.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -18,7 +19,8 @@ struct Pressure {
     VectorField force;                ///< of the last step, N
 };
 
-/// Adds the forces of the pressure to the spheres' external forces. Returns the work done in the step of dt seconds, J.
-double pressure_forces(Spheres& spheres, Pressure& pressure, double dt);
+/// Adds the forces of the pressure on one block of spheres to the loads. `force` has one entry a sphere of the pressure. Returns the work
+/// done in the step of dt seconds, J.
+double pressure_forces(const Spheres& spheres, Pressure& pressure, const SphereBlock& block, double dt, Loads& loads);
 
 } // namespace proveta

@@ -31,12 +31,12 @@ template <class T> struct Response {
 };
 
 /// Lowest normal force of a contact.
-inline double lowest_force(bool tension) { return tension ? -std::numeric_limits<double>::infinity() : 0.0; }
+PROVETA_INLINE double lowest_force(bool tension) { return tension ? -std::numeric_limits<double>::infinity() : 0.0; }
 
 /// The tangential half of a step: k_t, c_t in N/m and N s/m, limit = mu F_n in N, slip in m, dt in s. Brings u_t and viscous_t to the end
 /// of the step and adds the works; `stored` gets the tangential spring's energy. Without contact the spring is lost to friction.
 template <class T, class Mask>
-inline void coulomb(const T& k_t, const T& c_t, const T& limit, const Mask& touching, double dt, const T (&slip)[3], State<T>& s,
+PROVETA_INLINE void coulomb(const T& k_t, const T& c_t, const T& limit, const Mask& touching, double dt, const T (&slip)[3], State<T>& s,
                     Response<T>& r) {
     using std::max;
     using std::sqrt;

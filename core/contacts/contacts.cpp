@@ -13,13 +13,15 @@ namespace proveta {
 void Contacts::resize(std::size_t n) {
     i.resize(n);
     j.resize(n);
-    for (auto* array : {&contact_distance, &normal}) {
+    for (auto* array : {&contact_distance, &normal, &share}) {
         array->resize(n, 0.0);
     }
+    row_j.resize(n);
     law.resize(n);
     slip.resize(n);
     viscous.resize(n);
-    forces.resize(n);
+    force.resize(n);
+    active.resize(n, 1);
 }
 
 double lever_share(const Spheres& spheres, std::int32_t i, std::int32_t j) {
@@ -77,82 +79,67 @@ void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materi
     }
     c.resize(c.i.size());
     c.rolls = false;
+    c.first.assign(1, 0);
     for (std::size_t k = 0; k < c.size(); ++k) {
         const auto i = static_cast<std::size_t>(c.i[k]);
         const auto j = static_cast<std::size_t>(c.j[k]);
+        c.first.resize(std::max(c.first.size(), i / spheres_per_block + 1), static_cast<std::uint32_t>(k));
         c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), spheres.radius[i] + spheres.radius[j]);
         const LoosePair& pair =
             pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
         const auto body = [&](std::size_t s) { return LooseBody{spheres.radius[s], spheres.mass[s], spheres.inertia[s]}; };
         c.law[k] = loose_contact(pair, body(i), body(j), contact_area(pair.area_rule, spheres, i, j, weight[i], weight[j]));
         c.rolls = c.rolls || c.law[k].rolling_arm > 0.0;
-        c.forces[k].share_i = lever_share(spheres, c.i[k], c.j[k]);
+        c.share[k] = lever_share(spheres, c.i[k], c.j[k]);
     }
+    c.first.resize((spheres.size() + spheres_per_block - 1) / spheres_per_block + 1, static_cast<std::uint32_t>(c.size()));
     c.incidence = make_incidence(spheres.size(), c.i, c.j);
 }
 
-ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, double dt) {
-    constexpr std::size_t block = 512;
-    const std::size_t n = contacts.size();
+ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, std::size_t block, double elapsed, double dt, Loads& loads) {
     const SphereView view = spheres.view();
-    std::vector<ContactEnergies> parts((n + block - 1) / block);
-#pragma omp parallel for schedule(static) if (n > 4 * block)
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-        for (std::size_t k = part * block; k < std::min(n, (part + 1) * block); ++k) {
-            const double old[3] = {contacts.slip.x[k], contacts.slip.y[k], contacts.slip.z[k]};
-            auto pair = pair_kinematics<double>(view, &contacts.i[k], &contacts.j[k], contacts.forces[k].share_i, old, dt);
-            // The dashpots' last force, taken apart along the pair's present frame.
-            const double last[3] = {contacts.viscous.x[k], contacts.viscous.y[k], contacts.viscous.z[k]};
-            const double pulled = last[0] * pair.n[0] + last[1] * pair.n[1] + last[2] * pair.n[2];
-            contact::State<double> state;
-            state.viscous = -pulled;
-            for (int c = 0; c < 3; ++c) {
-                state.u_t[c] = pair.turned[c];
-                state.viscous_t[c] = last[c] - pulled * pair.n[c];
-            }
-            const auto r =
-                advance(contacts.law[k], contacts.contact_distance[k] - pair.distance, -pair.separation * dt, dt, pair.slip, state);
-            contacts.slip.set(k, {state.u_t[0], state.u_t[1], state.u_t[2]});
-            contacts.viscous.set(k, {state.viscous_t[0] - state.viscous * pair.n[0], state.viscous_t[1] - state.viscous * pair.n[1],
-                                     state.viscous_t[2] - state.viscous * pair.n[2]});
-            contacts.normal[k] = r.normal;
-            store_pair_forces(&contacts.forces[k], pair, r.normal, r.shear);
-            parts[part].stored += r.stored;
-            parts[part].friction += r.friction_work;
-            parts[part].dashpot += r.dashpot_work;
-        }
-    }
     ContactEnergies sum;
-    for (const auto& p : parts) {
-        sum.stored += p.stored;
-        sum.friction += p.friction;
-        sum.dashpot += p.dashpot;
+    for (auto k = contacts.first[block]; k < contacts.first[block + 1]; ++k) {
+        const auto i = static_cast<std::size_t>(contacts.i[k]);
+        const auto j = static_cast<std::size_t>(contacts.j[k]);
+        const double reach = contacts.contact_distance[k];
+        const bool apart = (spheres.position.at(j) - spheres.position.at(i)).squaredNorm() > reach * reach;
+        if (apart && contacts.active[k] == 0 && !contacts.law[k].tension) {
+            continue; // most of the list: neighbours that do not touch
+        }
+        contacts.active[k] = apart ? 0 : 1;
+        const double old[3] = {contacts.slip.x[k], contacts.slip.y[k], contacts.slip.z[k]};
+        auto pair = pair_kinematics<double>(view, &contacts.i[k], &contacts.j[k], contacts.share[k], old, elapsed);
+        // The dashpots' last force, taken apart along the pair's present frame.
+        const double last[3] = {contacts.viscous.x[k], contacts.viscous.y[k], contacts.viscous.z[k]};
+        const double pulled = last[0] * pair.n[0] + last[1] * pair.n[1] + last[2] * pair.n[2];
+        contact::State<double> state;
+        state.viscous = -pulled;
+        for (int c = 0; c < 3; ++c) {
+            state.u_t[c] = pair.turned[c];
+            state.viscous_t[c] = last[c] - pulled * pair.n[c];
+        }
+        const auto r = advance(contacts.law[k], reach - pair.distance, -pair.separation * elapsed, elapsed, pair.slip, state);
+        contacts.slip.set(k, {state.u_t[0], state.u_t[1], state.u_t[2]});
+        contacts.viscous.set(k, {state.viscous_t[0] - state.viscous * pair.n[0], state.viscous_t[1] - state.viscous * pair.n[1],
+                                 state.viscous_t[2] - state.viscous * pair.n[2]});
+        contacts.normal[k] = r.normal;
+        double couple[3] = {0.0, 0.0, 0.0};
+        const LooseContact& law = contacts.law[k];
+        if (law.rolling_arm > 0.0 && r.normal > 0.0) {
+            const Vec3 spin = spheres.spin.at(i) - spheres.spin.at(j);
+            const double relative[3] = {spin.x(), spin.y(), spin.z()};
+            const auto rolling = rolling::torque<double>(law.rolling_arm, r.normal, law.reduced_inertia, relative, dt);
+            std::copy_n(rolling.torque, 3, couple);
+            sum.friction += rolling.power * elapsed;
+        }
+        const auto force = add_pair_loads(loads.rows(), &contacts.i[k], &contacts.row_j[k], pair, contacts.share[k], r.normal, r.shear, couple);
+        contacts.force.set(k, {force.x[0], force.x[1], force.x[2]});
+        sum.stored += r.stored;
+        sum.friction += r.friction_work;
+        sum.dashpot += r.dashpot_work;
     }
     return sum;
-}
-
-double rolling_torques(Spheres& s, const Contacts& contacts, double dt) {
-    std::vector<double> power(s.size(), 0.0);
-    const auto& in = contacts.incidence;
-#pragma omp parallel for schedule(static) if (s.size() > 1024)
-    for (std::size_t k = 0; k < s.size(); ++k) {
-        Vec3 sum = Vec3::Zero();
-        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
-            const auto p = in.entry[e] >> 1;
-            const LooseContact& law = contacts.law[p];
-            if (!(contacts.normal[p] > 0.0 && law.rolling_arm > 0.0)) {
-                continue;
-            }
-            const bool second = (in.entry[e] & 1u) != 0;
-            const Vec3 spin = s.spin.at(k) - s.spin.at(static_cast<std::size_t>(second ? contacts.i[p] : contacts.j[p]));
-            const double relative[3] = {spin.x(), spin.y(), spin.z()};
-            const auto r = rolling::torque<double>(law.rolling_arm, contacts.normal[p], law.reduced_inertia, relative, dt);
-            sum += Vec3(r.torque[0], r.torque[1], r.torque[2]);
-            power[k] += 0.5 * r.power; // each side of the pair counts half
-        }
-        s.external_torque.add(k, sum);
-    }
-    return std::accumulate(power.begin(), power.end(), 0.0);
 }
 
 } // namespace proveta

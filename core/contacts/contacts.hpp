@@ -7,7 +7,7 @@
 #include "core/bonds/material.hpp"
 #include "core/contacts/incidence.hpp"
 #include "core/contacts/loose.hpp"
-#include "core/contacts/pair_force.hpp"
+#include "core/contacts/loads.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -15,12 +15,16 @@ namespace proveta {
 /// Candidate pairs of the current neighbour list, one array per quantity; SI units. Not all of them touch.
 struct Contacts {
     std::vector<std::int32_t> i, j;
+    std::vector<std::int32_t> row_j;      ///< row of the loads that j's share goes to
+    std::vector<double> share;            ///< lever arm of i over the distance
     std::vector<double> contact_distance; ///< min(d(0), R_i + R_j): overlaps of a dense packing store nothing, m
     std::vector<LooseContact> law;        ///< constants; the linear law has the stiffness that a bond of the pair would have
     VectorField slip;                     ///< u_t, m
     VectorField viscous;                  ///< force of the dashpots on i at the last step, N
     std::vector<double> normal;           ///< F_n of the last step, N
-    std::vector<PairForce> forces;
+    VectorField force;                    ///< of j on i at the last step, N
+    std::vector<std::uint8_t> active;     ///< touched at the last step, so that there may be a history
+    std::vector<std::uint32_t> first;     ///< first contact of each block of spheres, and the number of contacts
     Incidence incidence;
     bool rolls = false; ///< some pair has rolling resistance
 
@@ -46,11 +50,8 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::
 /// Fills in what follows from the pairs themselves: contact distances, laws, lever shares, incidence.
 void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& contacts);
 
-/// Advances every contact by dt seconds and fills `contacts.forces`.
-ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, double dt);
-
-/// Adds the rolling resistance of every contact to the spheres' external torques, for the normal forces of the last `contact_forces` and a
-/// step of dt seconds. Returns the dissipated power, W.
-double rolling_torques(Spheres& spheres, const Contacts& contacts, double dt);
+/// Advances the contacts of one block of spheres by `elapsed` seconds and adds their forces and rolling resistance to the loads. dt: the step
+/// that the forces will act for, s.
+ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, std::size_t block, double elapsed, double dt, Loads& loads);
 
 } // namespace proveta

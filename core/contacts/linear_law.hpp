@@ -28,7 +28,7 @@ template <class T> struct Parameters {
 /// One step of one contact. overlap in m (negative: apart), approach: its increase in the step, m; dt in s; slip: tangential displacement
 /// in the step, m; the state is brought to the end of the step. The dissipated energies are those of the trapezoidal rule.
 template <class T>
-inline contact::Response<T> advance(const Parameters<T>& p, const T& overlap, const T& approach, double dt, const T (&slip)[3],
+PROVETA_INLINE contact::Response<T> advance(const Parameters<T>& p, const T& overlap, const T& approach, double dt, const T (&slip)[3],
                                     contact::State<T>& s) {
     using std::max;
     const T lowest = T(contact::lowest_force(p.tension));

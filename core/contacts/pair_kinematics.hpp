@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/contacts/pair_force.hpp"
 #include "core/geometry/lanes.hpp"
+#include "core/geometry/rows.hpp"
 #include "core/particles/sphere_view.hpp"
 
 namespace proveta {
@@ -25,22 +25,23 @@ template <class T> struct PairKinematics {
 /// displacement so far, m; dt in s. The old displacement turns with n by the smallest rotation and about n by the mean spin, to second
 /// order in the angles of a step, which keeps its length to fourth.
 template <class T>
-inline PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t* i, const std::int32_t* j, const T& share, const T (&u)[3],
+PROVETA_INLINE PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t* i, const std::int32_t* j, const T& share, const T (&u)[3],
                                          double dt) {
-    using std::sqrt;
     PairKinematics<T> k;
     T n[3];
     T dv[3];
     T w_i[3];
     T w_j[3];
+    const NearGather<T> of_i(i, s.count);
     for (int c = 0; c < 3; ++c) {
-        n[c] = gather<T>(s.position[c], j) - gather<T>(s.position[c], i);
-        dv[c] = gather<T>(s.velocity[c], j) - gather<T>(s.velocity[c], i);
-        w_i[c] = gather<T>(s.spin[c], i);
+        n[c] = gather<T>(s.position[c], j) - of_i(s.position[c]);
+        dv[c] = gather<T>(s.velocity[c], j) - of_i(s.velocity[c]);
+        w_i[c] = of_i(s.spin[c]);
         w_j[c] = gather<T>(s.spin[c], j);
     }
-    k.distance = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const T inverse = 1.0 / k.distance;
+    const T square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    const T inverse = inverse_sqrt(square);
+    k.distance = square * inverse;
     for (auto& c : n) {
         c = c * inverse;
     }
@@ -69,24 +70,29 @@ inline PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t
     return k;
 }
 
-/// Writes pairs out[0], out[1], ...: normal force (compression positive) and shear force of j on i, N.
-template <class T> inline void store_pair_forces(PairForce* out, const PairKinematics<T>& k, const T& normal, const T (&shear)[3]) {
-    constexpr std::size_t stride = sizeof(PairForce) / sizeof(double);
+/// Adds the pairs to their spheres' loads: normal force (compression positive) and shear force of j on i, in N. The contact point divides
+/// the line of centres in the proportion `share`, so that i gets this share of the moment d n x F as torque and j the rest: r_c x F (2.4-2.9).
+/// couple: moment of j on i besides, N m. Returns the force on i.
+template <class T> struct Vector3 {
+    T x[3];
+};
+template <class T>
+PROVETA_INLINE Vector3<T> add_pair_loads(double* rows, const std::int32_t* i, const std::int32_t* row_j, const PairKinematics<T>& k, const T& share,
+                                 const T& normal, const T (&shear)[3], const T (&couple)[3]) {
+    T on_i[6];
+    T on_j[6];
     for (int c = 0; c < 3; ++c) {
         const int p = (c + 1) % 3;
         const int q = (c + 2) % 3;
-        scatter<stride>(&out->force[c], shear[c] - normal * k.n[c]);
-        scatter<stride>(&out->moment[c], k.distance * (k.n[p] * shear[q] - k.n[q] * shear[p]));
+        on_i[c] = shear[c] - normal * k.n[c];
+        on_j[c] = -on_i[c];
+        const T moment = k.distance * (k.n[p] * shear[q] - k.n[q] * shear[p]);
+        const T torque = share * moment;
+        on_i[3 + c] = torque + couple[c];
+        on_j[3 + c] = moment - torque - couple[c];
     }
-}
-
-/// Lever shares of pairs in[0], in[1], ...
-template <class T> inline T load_shares(const PairForce* in) {
-    if constexpr (std::is_same_v<T, double>) {
-        return in->share_i;
-    } else {
-        return T([&](auto lane) { return in[lane].share_i; });
-    }
+    add_rows(rows, i, row_j, on_i, on_j);
+    return {{on_i[0], on_i[1], on_i[2]}};
 }
 
 } // namespace proveta

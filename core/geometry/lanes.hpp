@@ -7,18 +7,27 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <experimental/simd>
 #include <type_traits>
+
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+/// For every function that a kernel calls: values in vector registers must not pass through memory, and no copy of the function compiled
+/// for one instruction set may be linked in the place of another's.
+#define PROVETA_INLINE [[gnu::always_inline]] inline
 
 namespace proveta {
 
 using Lanes = std::experimental::native_simd<double>;
 
-inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
-inline bool any_of(bool condition) { return condition; }
+PROVETA_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }
+PROVETA_INLINE bool any_of(bool condition) { return condition; }
 
 template <class Abi>
-inline std::experimental::simd<double, Abi> select(const std::experimental::simd_mask<double, Abi>& condition,
+PROVETA_INLINE std::experimental::simd<double, Abi> select(const std::experimental::simd_mask<double, Abi>& condition,
                                                    const std::experimental::simd<double, Abi>& yes,
                                                    const std::experimental::simd<double, Abi>& no) {
     auto out = no;
@@ -36,7 +45,7 @@ template <class T> constexpr std::size_t lane_count() {
 }
 
 /// Consecutive numbers p[0], p[1], ... as one T.
-template <class T> inline T load(const double* p) {
+template <class T> PROVETA_INLINE T load(const double* p) {
     if constexpr (std::is_same_v<T, double>) {
         return *p;
     } else {
@@ -44,7 +53,7 @@ template <class T> inline T load(const double* p) {
     }
 }
 
-template <class T> inline void store(double* p, const T& value) {
+template <class T> PROVETA_INLINE void store(double* p, const T& value) {
     if constexpr (std::is_same_v<T, double>) {
         *p = value;
     } else {
@@ -53,29 +62,69 @@ template <class T> inline void store(double* p, const T& value) {
 }
 
 /// Scattered numbers p[index[0]], p[index[1]], ... as one T.
-template <class T, class Index> inline T gather(const double* p, const Index* index) {
+template <class T> PROVETA_INLINE T gather(const double* p, const std::int32_t* index) {
     if constexpr (std::is_same_v<T, double>) {
         return p[*index];
     } else {
+#ifdef __AVX512F__
+        if constexpr (T::size() == 8) {
+            return T(_mm512_i32gather_pd(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(index)), p, sizeof(double)));
+        }
+#endif
         return T([&](auto k) { return p[index[k]]; });
     }
 }
 
-/// Lane k to p[k stride].
-template <std::size_t stride, class T> inline void scatter(double* p, const T& value) {
-    if constexpr (std::is_same_v<T, double>) {
-        *p = value;
-    } else {
-        alignas(64) double lanes[T::size()];
-        value.copy_to(lanes, std::experimental::vector_aligned);
-        for (std::size_t k = 0; k < T::size(); ++k) {
-            p[k * stride] = lanes[k];
+/// Gathers by ascending indices that mostly lie close together, such as the first spheres of consecutive bonds: one load and a permutation
+/// where they all fall within one register, at a third of the price. count: length of the arrays that will be read.
+template <class T> struct NearGather {
+    const std::int32_t* index;
+#ifdef __AVX512F__
+    bool near = false;
+    __m512i order{};
+#endif
+
+    PROVETA_INLINE NearGather(const std::int32_t* ascending, [[maybe_unused]] std::int32_t count) : index(ascending) {
+#ifdef __AVX512F__
+        if constexpr (lane_count<T>() == 8) {
+            near = index[7] - index[0] < 8 && index[0] + 8 <= count;
+            const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index));
+            order = _mm512_cvtepi32_epi64(_mm256_sub_epi32(all, _mm256_set1_epi32(index[0])));
         }
+#endif
     }
+
+    PROVETA_INLINE T operator()(const double* p) const {
+#ifdef __AVX512F__
+        if constexpr (lane_count<T>() == 8) {
+            if (near) {
+                return T(_mm512_permutexvar_pd(order, _mm512_loadu_pd(p + index[0])));
+            }
+        }
+#endif
+        return gather<T>(p, index);
+    }
+};
+
+/// 1 / sqrt(x) to the last bit or two, for x between 1e-37 and 1e37: the same bits at every width, and in half the time of a square root
+/// and a division. Both of these are exact in single precision, whence two of Newton's steps lead to full precision.
+template <class T> PROVETA_INLINE T inverse_sqrt(const T& x) {
+    T y;
+    if constexpr (std::is_same_v<T, double>) {
+        y = static_cast<double>(1.0f / std::sqrt(static_cast<float>(x)));
+    } else {
+        namespace stdx = std::experimental;
+        using Single = stdx::simd<float, stdx::simd_abi::deduce_t<float, T::size()>>;
+        const Single root = sqrt(stdx::static_simd_cast<Single>(x));
+        y = stdx::static_simd_cast<T>(Single(1.0f) / root);
+    }
+    const T half = 0.5 * x;
+    y = y * (1.5 - half * y * y);
+    return y * (1.5 - half * y * y);
 }
 
 /// One lane of a number.
-template <class T> inline double in_lane(const T& value, std::size_t k) {
+template <class T> PROVETA_INLINE double in_lane(const T& value, std::size_t k) {
     if constexpr (std::is_same_v<T, double>) {
         (void)k;
         return value;
@@ -84,7 +133,7 @@ template <class T> inline double in_lane(const T& value, std::size_t k) {
     }
 }
 
-template <class M> inline bool mask_lane(const M& mask, std::size_t k) {
+template <class M> PROVETA_INLINE bool mask_lane(const M& mask, std::size_t k) {
     if constexpr (std::is_same_v<M, bool>) {
         (void)k;
         return mask;

@@ -1,130 +1,38 @@
 #include "core/motion/motion.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "core/motion/motion_kernel.hpp"
+#include "core/parallel/instruction_set.hpp"
 
 namespace proveta {
 
-namespace {
-
-struct Sum {
-    Vec3 force = Vec3::Zero();
-    Vec3 torque = Vec3::Zero();
-};
-
-void gather_pairs(const std::vector<PairForce>& pairs, const Incidence& incidence, std::size_t sphere, Sum& sum) {
-    for (auto k = incidence.offset[sphere]; k < incidence.offset[sphere + 1]; ++k) {
-        const PairForce& pair = pairs[incidence.entry[k] >> 1];
-        const bool second = (incidence.entry[k] & 1u) != 0;
-        const double sign = second ? -1.0 : 1.0;
-        const double share = second ? 1.0 - pair.share_i : pair.share_i;
-        for (int c = 0; c < 3; ++c) {
-            sum.force[c] += sign * pair.force[c];
-            sum.torque[c] += share * pair.moment[c];
-        }
+MotionSums move_spheres(Spheres& s, Loads& loads, const SphereBlock& block, const MotionRule& rule, double dt, bool first, bool measure) {
+    static const MotionKernel kernel = pick_variant(motion_kernel_baseline, motion_kernel_avx2, motion_kernel_avx512);
+    loads.collect(block);
+    const auto pointers = [](VectorField& f, double*(&out)[3]) {
+        out[0] = f.x.data();
+        out[1] = f.y.data();
+        out[2] = f.z.data();
+    };
+    MotionView view{};
+    pointers(s.position, view.position);
+    pointers(s.velocity, view.velocity);
+    pointers(s.spin, view.spin);
+    view.mass = s.mass.data();
+    view.inertia = s.inertia.data();
+    view.rows = loads.rows();
+    const bool half_behind = rule.scheme == Scheme::velocity_verlet;
+    MotionStep step{};
+    step.dt = dt;
+    step.kick_dt = half_behind && first ? 0.5 * dt : dt;
+    step.newer = half_behind && !first ? 0.5 : 0.0;
+    for (int c = 0; c < 3; ++c) {
+        step.gravity[c] = rule.gravity[c];
     }
-}
-
-void gather_couples(const VectorField& couples, const Incidence& incidence, std::size_t sphere, Sum& sum) {
-    for (auto k = incidence.offset[sphere]; k < incidence.offset[sphere + 1]; ++k) {
-        const Vec3 couple = couples.at(incidence.entry[k] >> 1);
-        sum.torque += (incidence.entry[k] & 1u) != 0 ? Vec3(-couple) : couple;
-    }
-}
-
-// One vector quantity (translation or rotation) through one step; returns the work of the damping.
-template <bool viscous> double kick(Vec3& velocity, const Vec3& load, double inertia, double alpha, double dt) {
-    Vec3 damping = Vec3::Zero();
-    Vec3 after;
-    if constexpr (viscous) {
-        const double half = 0.5 * alpha * dt;
-        after = (velocity * (1.0 - half) + load * (dt / inertia)) / (1.0 + half);
-        damping = -0.5 * alpha * inertia * (velocity + after);
-    } else {
-        const double speed = velocity.norm();
-        if (alpha > 0.0 && speed > 0.0) {
-            damping = velocity * (-alpha * load.norm() / speed);
-        }
-        after = velocity + (load + damping) * (dt / inertia);
-    }
-    const double work = -0.5 * dt * damping.dot(velocity + after);
-    velocity = after;
-    return work;
-}
-
-// Which velocity carries the positions over a step: the new one, the old one, or the mean of both.
-enum class Carrier { after, before, mean };
-
-template <Carrier carrier, bool viscous>
-MotionSums move(Spheres& s, const Bonds& bonds, const Contacts& contacts, const MotionRule& rule, double dt, bool first, bool measure) {
-    constexpr std::size_t block = 256;
-    const std::size_t n = s.size();
-    const bool lags = rule.scheme == Scheme::velocity_verlet && !first; // velocities half a step behind the forces
-    const double kick_dt = rule.scheme == Scheme::velocity_verlet && first ? 0.5 * dt : dt;
-    const double newer = lags ? 0.5 : 0.0; // share of the new velocity in that at the time of the forces
-    std::vector<MotionSums> parts((n + block - 1) / block);
-#pragma omp parallel for schedule(static) if (parts.size() > 1)
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-        MotionSums& out = parts[part];
-        for (std::size_t k = part * block; k < std::min(n, (part + 1) * block); ++k) {
-            Sum sum{s.external_force.at(k) + s.mass[k] * rule.gravity, s.external_torque.at(k)};
-            gather_pairs(bonds.forces, bonds.incidence, k, sum);
-            if (bonds.moments) {
-                gather_couples(bonds.couple, bonds.incidence, k, sum);
-            }
-            gather_pairs(contacts.forces, contacts.incidence, k, sum);
-            Vec3 v = s.velocity.at(k);
-            Vec3 w = s.spin.at(k);
-            const Vec3 v_before = v;
-            const Vec3 w_before = w;
-            out.damping_work += kick<viscous>(v, sum.force, s.mass[k], rule.damping.translation, kick_dt);
-            out.damping_work += kick<viscous>(w, sum.torque, s.inertia[k], rule.damping.rotation, kick_dt);
-            out.fastest = std::max(out.fastest, v.squaredNorm());
-            if (measure) {
-                out.kinetic += 0.5 * s.mass[k] * (v_before + newer * (v - v_before)).squaredNorm();
-                out.kinetic += 0.5 * s.inertia[k] * (w_before + newer * (w - w_before)).squaredNorm();
-                out.unbalanced += sum.force.norm();
-                s.force.set(k, sum.force);
-                s.torque.set(k, sum.torque);
-            }
-            s.velocity.set(k, v);
-            s.spin.set(k, w);
-            if constexpr (carrier == Carrier::after) {
-                s.position.add(k, v * dt);
-            } else {
-                out.fastest = std::max(out.fastest, v_before.squaredNorm());
-                s.position.add(k, (carrier == Carrier::before ? v_before : Vec3(0.5 * (v_before + v))) * dt);
-            }
-            s.external_force.set(k, Vec3::Zero());
-            s.external_torque.set(k, Vec3::Zero());
-        }
-    }
-    MotionSums total;
-    for (const auto& p : parts) {
-        total.damping_work += p.damping_work;
-        total.fastest = std::max(total.fastest, p.fastest);
-        total.kinetic += p.kinetic;
-        total.unbalanced += p.unbalanced;
-    }
-    total.fastest = std::sqrt(total.fastest);
-    return total;
-}
-
-template <Carrier carrier>
-MotionSums move(Spheres& s, const Bonds& bonds, const Contacts& contacts, const MotionRule& rule, double dt, bool first, bool measure) {
-    return rule.damping.viscous ? move<carrier, true>(s, bonds, contacts, rule, dt, first, measure)
-                                : move<carrier, false>(s, bonds, contacts, rule, dt, first, measure);
-}
-
-} // namespace
-
-MotionSums move_spheres(Spheres& s, const Bonds& bonds, const Contacts& contacts, const MotionRule& rule, double dt, bool first,
-                        bool measure) {
-    switch (rule.scheme) {
-    case Scheme::forward_euler: return move<Carrier::before>(s, bonds, contacts, rule, dt, first, measure);
-    case Scheme::taylor: return move<Carrier::mean>(s, bonds, contacts, rule, dt, first, measure);
-    default: return move<Carrier::after>(s, bonds, contacts, rule, dt, first, measure);
-    }
+    step.damping = rule.damping;
+    step.measure = measure;
+    MotionSums out;
+    kernel(view, step, rule.scheme, block.begin, block.end, out);
+    return out;
 }
 
 } // namespace proveta

@@ -73,7 +73,7 @@ void add_pairs(const Spheres& s, const Pairs& pairs, const Spring& spring, const
         const auto other = static_cast<std::size_t>(second ? pairs.i[p] : pairs.j[p]);
         const Vec3 to = s.position.at(other) - s.position.at(sphere);
         const double d = to.norm();
-        const double share = second ? 1.0 - pairs.forces[p].share_i : pairs.forces[p].share_i;
+        const double share = second ? 1.0 - pairs.share[p] : pairs.share[p];
         const double weight = 1.0 + g[other] / g[sphere];
         block.add(to / d, spring(p, d), share * d, weight);
         block.rolling += weight * 2.0 * rolling::share * rolling(p) / s.inertia[sphere];
@@ -213,7 +213,7 @@ double largest_eigenvalue(const Spheres& s, const Bonds& bonds, int iterations) 
             const Vec3 to = s.position.at(j) - s.position.at(i);
             const double d = to.norm();
             const Vec3 n_ij = to / d;
-            const double l_i = bonds.forces[b].share_i * d;
+            const double l_i = bonds.share[b] * d;
             const double l_j = d - l_i;
             const Vec3 rel = q.segment<3>(c) - q.segment<3>(a) - (l_i * q.segment<3>(a + 3) + l_j * q.segment<3>(c + 3)).cross(n_ij);
             const Vec3 along = n_ij * n_ij.dot(rel);

@@ -2,6 +2,8 @@
 // of a shared header is ever compiled for a processor that the machine does not have.
 #pragma once
 
+#include <cstdint>
+
 namespace proveta {
 
 /// Positions (m), velocities (m/s) and spins (rad/s), one array per component.
@@ -9,6 +11,7 @@ struct SphereView {
     const double* position[3];
     const double* velocity[3];
     const double* spin[3];
+    std::int32_t count; ///< of spheres
 };
 
 } // namespace proveta

@@ -9,7 +9,8 @@ using std::numbers::pi;
 SphereView Spheres::view() const {
     return {{position.x.data(), position.y.data(), position.z.data()},
             {velocity.x.data(), velocity.y.data(), velocity.z.data()},
-            {spin.x.data(), spin.y.data(), spin.z.data()}};
+            {spin.x.data(), spin.y.data(), spin.z.data()},
+            static_cast<std::int32_t>(size())};
 }
 
 double Spheres::volume(std::size_t k) const {
@@ -23,7 +24,7 @@ void Spheres::add(const Vec3& centre, double r, double density, int cohesive_gro
     for (auto* field : {&position, &start}) {
         field->push_back(centre);
     }
-    for (auto* field : {&velocity, &spin, &force, &torque, &external_force, &external_torque}) {
+    for (auto* field : {&velocity, &spin}) {
         field->push_back(Vec3::Zero());
     }
     radius.push_back(r);

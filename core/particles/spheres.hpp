@@ -15,10 +15,6 @@ struct Spheres {
     VectorField position;         ///< centres, m
     VectorField velocity;         ///< m/s
     VectorField spin;             ///< angular velocity, rad/s
-    VectorField force;            ///< sum of contact, bond and external forces, without background damping, N
-    VectorField torque;           ///< N m
-    VectorField external_force;   ///< from boundaries, N
-    VectorField external_torque;  ///< N m
     VectorField start;            ///< centres at the start of the test, m
     std::vector<double> radius;   ///< m
     std::vector<double> mass;     ///< kg

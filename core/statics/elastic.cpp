@@ -28,7 +28,7 @@ Spring spring(const Spheres& s, const Bonds& b, std::size_t k, double shear_rati
     const Vec3 to = s.position.at(static_cast<std::size_t>(b.j[k])) - s.position.at(static_cast<std::size_t>(b.i[k]));
     const double d = to.norm();
     const Vec3 n = to / d;
-    const double lever_i = b.forces[k].share_i * d;
+    const double lever_i = b.share[k] * d;
     const Mat3 nn = n * n.transpose();
     Mat3 cross; // n x
     cross << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;

@@ -16,6 +16,7 @@ void add_describe(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
 void add_specimen(CLI::App& app, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
+void add_bench(CLI::App& app, Command& chosen);
 
 /// Exit codes: the user's input, the calculation, an interrupt.
 constexpr int exit_input = 2;

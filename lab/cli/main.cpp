@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
     proveta::add_schema(app, chosen);
     proveta::add_specimen(app, chosen);
     proveta::add_verify(app, chosen);
+    proveta::add_bench(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

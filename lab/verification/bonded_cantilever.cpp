@@ -45,8 +45,7 @@ Tip load(int n, const Vec3& force, const Vec3& torque) {
     const auto last = static_cast<std::size_t>(n);
     Tip tip;
     for (int k = 0; k < 400 * n * n; ++k) {
-        model.spheres.external_force.add(last, force);
-        model.spheres.external_torque.add(last, torque);
+        model.loads.add(last, force, torque);
         model.step({}, false);
         tip.twist += model.spheres.spin.x[last] * model.dt();
         model.spheres.position.set(0, s.position.at(0));

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -7,6 +7,7 @@
 #include "core/contacts/cell_grid.hpp"
 #include "core/geometry/hilbert.hpp"
 #include "core/geometry/lanes.hpp"
+#include "core/geometry/rows.hpp"
 #include "specimens/random.hpp"
 #include "specimens/shape.hpp"
 
@@ -60,7 +61,7 @@ TEST_CASE("the cell search finds exactly the pairs that a double loop finds") {
     CHECK(find_pairs({}, {}, 1.0, 0.0).empty());
 }
 
-TEST_CASE("lanes select, load, gather and scatter like scalars") {
+TEST_CASE("lanes select, load and gather like scalars") {
     constexpr auto n = lane_count<Lanes>();
     std::vector<double> values(4 * n);
     std::vector<std::int32_t> index(n);
@@ -73,11 +74,63 @@ TEST_CASE("lanes select, load, gather and scatter like scalars") {
     const auto a = load<Lanes>(values.data());
     const auto b = gather<Lanes>(values.data(), index.data());
     const auto c = select(a > Lanes(0.0), a, b);
-    std::vector<double> out(2 * n, 0.0);
-    scatter<2>(out.data(), c);
     for (std::size_t k = 0; k < n; ++k) {
-        CHECK(out[2 * k] == (values[k] > 0.0 ? values[k] : values[static_cast<std::size_t>(index[k])]));
+        CHECK(in_lane(c, k) == (values[k] > 0.0 ? values[k] : values[static_cast<std::size_t>(index[k])]));
     }
+}
+
+TEST_CASE("the inverse square root is right to the last bits, alike for scalars and lanes") {
+    constexpr auto n = lane_count<Lanes>();
+    Random random(11, Stream::positions);
+    for (int trial = 0; trial < 1000; ++trial) {
+        double x[n];
+        for (auto& v : x) {
+            v = std::pow(10.0, 60.0 * random.uniform() - 30.0);
+        }
+        const auto y = inverse_sqrt(load<Lanes>(x));
+        for (std::size_t k = 0; k < n; ++k) {
+            CHECK(in_lane(y, k) == inverse_sqrt(x[k]));
+            CHECK(std::fabs(inverse_sqrt(x[k]) * std::sqrt(x[k]) - 1.0) < 1e-15);
+        }
+    }
+}
+
+TEST_CASE("rows are turned into lanes and back, and pairs are added one after the other") {
+    constexpr auto n = lane_count<Lanes>();
+    alignas(64) double rows[16 * row_length];
+    for (std::size_t k = 0; k < 16 * row_length; ++k) {
+        rows[k] = std::sin(static_cast<double>(k));
+    }
+    Lanes turned[6];
+    load_rows(rows + row_length, turned);
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t c = 0; c < 6; ++c) {
+            CHECK(in_lane(turned[c], k) == rows[row_length * (k + 1) + c]);
+        }
+    }
+    // Pairs that share spheres in every way, as the second of one and the first of the next.
+    std::int32_t first[n];
+    std::int32_t second[n];
+    Lanes a[6];
+    Lanes b[6];
+    for (std::size_t c = 0; c < 6; ++c) {
+        a[c] = turned[c] * 1.7;
+        b[c] = turned[5 - c] * 0.3;
+    }
+    alignas(64) double expected[16 * row_length];
+    std::copy(std::begin(rows), std::end(rows), expected);
+    for (std::size_t k = 0; k < n; ++k) {
+        first[k] = static_cast<std::int32_t>(k / 2);
+        second[k] = static_cast<std::int32_t>(1 + k / 3);
+        for (std::size_t c = 0; c < 6; ++c) {
+            expected[row_length * static_cast<std::size_t>(first[k]) + c] += in_lane(a[c], k);
+        }
+        for (std::size_t c = 0; c < 6; ++c) {
+            expected[row_length * static_cast<std::size_t>(second[k]) + c] += in_lane(b[c], k);
+        }
+    }
+    add_rows(rows, first, second, a, b);
+    CHECK(std::equal(std::begin(rows), std::end(rows), expected));
 }
 
 TEST_CASE("shapes keep spheres inside and measure depths") {
