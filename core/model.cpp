@@ -39,6 +39,8 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     }
     travel_ = 2.0 * skin_; // makes the first search happen
     search();
+    scaling_ = scale_masses(spheres, bonds, materials, weight_, contacts, platens, skin_, numerics_.mass_scaling, bound_);
+    stable_ = scaling_.step_after;
     dt_ = numerics_.safety * stable_;
     if (numerics_.time_step) {
         dt_ = *numerics_.time_step;
@@ -53,6 +55,11 @@ void Model::step(const std::vector<double>& speeds, bool measure) {
     search();
     // The first forces are those of the start: velocities count, but nothing has moved yet.
     const bool first = steps_ == 0;
+    if (!scaling_.mass.empty() && !numerics_.gravity.isZero()) { // the mass added for the step's sake weighs nothing
+        for (std::size_t k = 0; k < spheres.size(); ++k) {
+            spheres.external_force.add(k, (scaling_.mass[k] - spheres.mass[k]) * numerics_.gravity);
+        }
+    }
     forces(first ? 1e-9 * dt_ : dt_, measure || first);
     motion(speeds, measure);
     time_ += dt_;
@@ -161,7 +168,8 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
     if (measure && !numerics_.gravity.isZero()) {
         ledger_.body = 0.0;
         for (std::size_t k = 0; k < spheres.size(); ++k) {
-            ledger_.body += spheres.mass[k] * numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
+            ledger_.body += (scaling_.mass.empty() ? spheres.mass[k] : scaling_.mass[k]) *
+                            numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
         }
     }
     const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity};

@@ -10,6 +10,18 @@
 
 namespace proveta {
 
+/// What the bound asks of one sphere: it is stable while stiffness dt^2 + 2 damping dt <= left. Eigenvalues over the sphere's mass and
+/// inertia, so that both fall with a factor on these.
+struct SphereDemand {
+    double stiffness = 0.0; ///< 1/s2
+    double damping = 0.0;   ///< 1/s
+    double left = 4.0;      ///< of the 4, after rolling resistance
+
+    [[nodiscard]] double step() const; ///< largest step, s
+    /// Factor on mass and inertia at which a step of dt seconds is the largest; below 1 where the sphere could be lighter.
+    [[nodiscard]] double factor(double dt) const { return (stiffness * dt + 2.0 * damping) * dt / left; }
+};
+
 /// Lower bound on the critical step of velocity Verlet with velocities that lag half a step: lambda_max[M^-1 (dt^2 K + 2 dt C)] <= 4.
 ///
 /// Each spring's energy is split between its two spheres by Young's inequality, (a + b)^2 <= (1 + g_j/g_i) a^2 + (1 + g_i/g_j) b^2,
@@ -24,6 +36,9 @@ class StepBound {
     /// the next search, m; laws that stiffen with overlap count as stiff as they can get by then.
     [[nodiscard]] double limit(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
                                double skin = 0.0) const;
+    /// The same sphere by sphere: the bound is the lowest of their steps.
+    [[nodiscard]] std::vector<SphereDemand> demands(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
+                                                    const std::vector<Platen>& platens, double skin = 0.0) const;
 
   private:
     std::vector<double> share_;  // g for bonds, tuned to their network

@@ -1,0 +1,91 @@
+#include "core/motion/mass_scaling.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace proveta {
+
+namespace {
+
+// The least factors on the true masses with which every sphere is stable at dt, and the mass that they add, kg. demand: of the spheres
+// with the masses they have now.
+double factors_at(double dt, const std::vector<SphereDemand>& demand, const std::vector<double>& now, const std::vector<double>& mass,
+                  std::vector<double>& factor) {
+    double added = 0.0;
+    for (std::size_t k = 0; k < mass.size(); ++k) {
+        factor[k] = std::max(1.0, demand[k].factor(dt) * now[k] / mass[k]);
+        added += (factor[k] - 1.0) * mass[k];
+    }
+    return added;
+}
+
+// The factors of the largest step that the allowed mass reaches.
+void best_factors(double allowed, const std::vector<SphereDemand>& demand, const std::vector<double>& now, const std::vector<double>& mass,
+                  std::vector<double>& factor) {
+    double low = 1e300;
+    for (const auto& d : demand) {
+        low = std::min(low, d.step());
+    }
+    double high = low;
+    while (factors_at(low, demand, now, mass, factor) > allowed) { // the last round overspent
+        low *= 0.5;
+    }
+    while (high < 1e3 * low && factors_at(high, demand, now, mass, factor) <= allowed) {
+        high *= 2.0;
+    }
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        (factors_at(middle, demand, now, mass, factor) <= allowed ? low : high) = middle;
+    }
+    factors_at(low, demand, now, mass, factor);
+}
+
+} // namespace
+
+MassScaling scale_masses(Spheres& s, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
+                         Contacts& contacts, std::vector<Platen>& platens, double skin, double share, StepBound& bound) {
+    MassScaling out;
+    const std::vector<double> mass = s.mass;
+    const std::vector<double> inertia = s.inertia;
+    const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
+    out.step_before = out.step_after = bound.limit(s, bonds, contacts, platens, skin);
+    if (share <= 0.0) {
+        return out;
+    }
+    std::vector<double> factor(s.size(), 1.0);
+    std::vector<double> best = factor;
+    const auto apply = [&](const std::vector<double>& f) {
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            s.mass[k] = f[k] * mass[k];
+            s.inertia[k] = f[k] * inertia[k];
+        }
+        set_up_contacts(s, materials, weight, contacts);
+        for (auto& platen : platens) {
+            set_up_platen(s, materials, platen);
+        }
+        bound = StepBound(s, bonds);
+    };
+    // The split of springs between their spheres and the dashpots of contacts follow the masses, which follow them: a few rounds.
+    constexpr int rounds = 6;
+    for (int round = 0; round < rounds; ++round) {
+        best_factors(share * total, bound.demands(s, bonds, contacts, platens, skin), s.mass, mass, factor);
+        apply(factor);
+        const double step = bound.limit(s, bonds, contacts, platens, skin);
+        if (step > out.step_after) {
+            out.step_after = step;
+            best = factor;
+        }
+    }
+    apply(best);
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        out.added += (s.mass[k] - mass[k]) / total;
+        out.spheres += best[k] > 1.0 ? 1 : 0;
+        out.largest_factor = std::max(out.largest_factor, best[k]);
+    }
+    if (out.spheres > 0) {
+        out.mass = mass;
+    }
+    return out;
+}
+
+} // namespace proveta
