@@ -19,9 +19,9 @@ double factors_at(double dt, const std::vector<SphereDemand>& demand, const std:
     return added;
 }
 
-// The factors of the largest step that the allowed mass reaches.
-void best_factors(double allowed, const std::vector<SphereDemand>& demand, const std::vector<double>& now, const std::vector<double>& mass,
-                  std::vector<double>& factor) {
+// The largest step that the allowed mass reaches, and its factors.
+double best_step(double allowed, const std::vector<SphereDemand>& demand, const std::vector<double>& now, const std::vector<double>& mass,
+                 std::vector<double>& factor) {
     double low = 1e300;
     for (const auto& d : demand) {
         low = std::min(low, d.step());
@@ -38,6 +38,7 @@ void best_factors(double allowed, const std::vector<SphereDemand>& demand, const
         (factors_at(middle, demand, now, mass, factor) <= allowed ? low : high) = middle;
     }
     factors_at(low, demand, now, mass, factor);
+    return low;
 }
 
 } // namespace
@@ -53,34 +54,41 @@ MassScaling scale_masses(Spheres& s, const Bonds& bonds, const std::vector<Mater
         return out;
     }
     std::vector<double> factor(s.size(), 1.0);
-    std::vector<double> best = factor;
-    const auto apply = [&](const std::vector<double>& f) {
+    // First the splits of the springs, with true masses: the step that the share pays for grows from sweep to sweep, then settles.
+    StepBound tuned = bound;
+    StepBound best = bound;
+    double longest = 0.0;
+    tuned.level();
+    for (int sweep = 0; sweep < 12; ++sweep) {
+        const auto demand = tuned.demands(s, bonds, contacts, platens, skin);
+        const double dt = best_step(share * total, demand, mass, mass, factor);
+        if (dt > longest) {
+            longest = dt;
+            best = tuned;
+        }
         for (std::size_t k = 0; k < s.size(); ++k) {
-            s.mass[k] = f[k] * mass[k];
-            s.inertia[k] = f[k] * inertia[k];
+            factor[k] = demand[k].factor(dt);
+        }
+        tuned.hand_over(factor);
+    }
+    bound = best;
+    // Then the masses. Restitution follows them and the bound follows restitution: a few rounds.
+    for (int round = 0; round < 4; ++round) {
+        best_step(share * total, bound.demands(s, bonds, contacts, platens, skin), s.mass, mass, factor);
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            s.mass[k] = factor[k] * mass[k];
+            s.inertia[k] = factor[k] * inertia[k];
         }
         set_up_contacts(s, materials, weight, contacts);
         for (auto& platen : platens) {
             set_up_platen(s, materials, platen);
         }
-        bound = StepBound(s, bonds);
-    };
-    // The split of springs between their spheres and the dashpots of contacts follow the masses, which follow them: a few rounds.
-    constexpr int rounds = 6;
-    for (int round = 0; round < rounds; ++round) {
-        best_factors(share * total, bound.demands(s, bonds, contacts, platens, skin), s.mass, mass, factor);
-        apply(factor);
-        const double step = bound.limit(s, bonds, contacts, platens, skin);
-        if (step > out.step_after) {
-            out.step_after = step;
-            best = factor;
-        }
     }
-    apply(best);
+    out.step_after = bound.limit(s, bonds, contacts, platens, skin);
     for (std::size_t k = 0; k < s.size(); ++k) {
         out.added += (s.mass[k] - mass[k]) / total;
-        out.spheres += best[k] > 1.0 ? 1 : 0;
-        out.largest_factor = std::max(out.largest_factor, best[k]);
+        out.spheres += factor[k] > 1.0 ? 1 : 0;
+        out.largest_factor = std::max(out.largest_factor, factor[k]);
     }
     if (out.spheres > 0) {
         out.mass = mass;

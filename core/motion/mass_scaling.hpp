@@ -19,10 +19,10 @@ struct MassScaling {
 
 /// Makes spheres heavier, mass and inertia by the same factor, so that the bound on the stable step becomes as large as an added mass of
 /// `share` of the specimen's allows: each sphere gets the least factor with which the bound holds at one common step, and bisection finds
-/// the largest step whose factors stay within the share. Dashpots of bonds keep their constants; `contacts` and `platens`, which must list
-/// what is near, get their laws anew, because restitution follows the mass. `bound` is tuned to the scaled network. The share pays for
-/// inertia in motion only: stiffness, strength and every static state are those of the true masses. A second call starts from the masses
-/// that the first left.
+/// the largest step whose factors stay within the share. `bound` is split anew, so that heavy neighbours carry what they can of a spring.
+/// Dashpots of bonds keep their constants; `contacts` and `platens`, which must list what is near, get their laws anew, because
+/// restitution follows the mass. Stiffness, strength and every static state are those of the true masses: only motion feels the scaling. A
+/// share of 0 changes nothing. Call it once, on true masses.
 MassScaling scale_masses(Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
                          Contacts& contacts, std::vector<Platen>& platens, double skin, double share, StepBound& bound);
 

@@ -151,6 +151,12 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
     share_ = best;
 }
 
+void StepBound::hand_over(const std::vector<double>& factor) {
+    for (std::size_t k = 0; k < share_.size(); ++k) {
+        share_[k] = std::clamp(share_[k] * std::sqrt(factor[k]), 1e-3, 1.0);
+    }
+}
+
 std::vector<SphereDemand> StepBound::demands(const Spheres& s, const Bonds& bonds, const Contacts& contacts,
                                              const std::vector<Platen>& platens, double skin) const {
     const auto k_t = shear_stiffness(bonds);

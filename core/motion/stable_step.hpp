@@ -1,6 +1,7 @@
 // The largest stable step, bounded from below rigorously, sphere by sphere.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/bonds/bonds.hpp"
@@ -31,6 +32,12 @@ struct SphereDemand {
 class StepBound {
   public:
     StepBound(const Spheres& spheres, const Bonds& bonds);
+
+    /// Begins another split, even at first.
+    void level() { std::fill(share_.begin(), share_.end(), 1.0); }
+    /// Hands springs over to spheres that have mass to spare, while `factor`, the demanded mass over the true one, is below 1; between two
+    /// spheres that both ask for mass an even split asks for least.
+    void hand_over(const std::vector<double>& factor);
 
     /// The bound in s, with the pairs of the contact list and the platens taken as closed. skin: how much overlaps may still grow before
     /// the next search, m; laws that stiffen with overlap count as stiff as they can get by then.
