@@ -8,7 +8,7 @@ namespace proveta {
 
 /// Keys of a "loading" section that say how fast.
 struct ClosingRate {
-    input::NumberOrWord rate{0.05, ""}; ///< closing speed, m/s, each platen moving at half of it; "auto": led by `RateControl`
+    input::NumberOrWord rate{0.0, "auto"}; ///< closing speed, m/s, each platen moving at half of it; "auto": led by `RateControl`
     input::NumberOrWord ramp{0.0, "auto"};
     std::string check = "off";
 

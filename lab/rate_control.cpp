@@ -2,26 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace proveta {
 
 namespace {
 
-double env(const char* n, double d) {
-    const char* v = std::getenv(n);
-    return v ? std::atof(v) : d;
-}
-const double eta_fast = env("RC_FAST", 0.15);        // kinetic over elastic energy 0.2 %
-const double eta_slow = env("RC_SLOW", 0.015);       //
-const double first_speed = env("RC_SEED", 0.1);      // of the strain at first damage, per crossing
-const double damage_low = env("RC_D1", 0.001);       // damage ratio at which the speed begins to fall
-const double damage_high = env("RC_D2", 0.015);      // and at which it is lowest
-const double memory = env("RC_MEM", 0.08);           // of the work so far, over which the damage ratio is taken
-const double most_kinetic = env("RC_KIN", 0.005);    // half of what the verdict allows
-const double most_unbalanced = env("RC_UNB", 0.005); //
-const double lowest = env("RC_LOW", 0.5);            // of eta_slow: limits may not bring the test to a halt
-const double most_gain = env("RC_GAIN", 0.1);        // du per crossing over the strain: stress differences of 1.2 %
+constexpr double eta_fast = 0.15;         // kinetic over elastic energy 0.2 %
+constexpr double eta_slow = 0.015;        // the error of the peak is about as large
+constexpr double first_speed = 0.1;       // strain per crossing at the start, over the strain at first damage
+constexpr double damage_low = 0.001;      // damage ratio at which the speed begins to fall
+constexpr double damage_high = 0.015;     // and at which it is lowest; up to the peak it stays at 0.02 to 0.03
+constexpr double memory = 0.08;           // of the work so far, over which the damage ratio is taken
+constexpr double most_kinetic = 0.005;    // half of what the verdict allows, over the elastic energy
+constexpr double most_unbalanced = 0.005; // the same
+constexpr double lowest = 0.5;            // of eta_slow: failure itself may not bring the test to a halt
+constexpr double most_gain = 0.1;         // of the strain per crossing: stress differences of 1.2 %
 
 } // namespace
 
@@ -43,12 +38,19 @@ void RateControl::observe(const RateReading& r) {
     const double ratio = damage_ratio();
     const double along = ratio > 0.0 ? std::clamp(std::log(ratio / damage_low) / std::log(damage_high / damage_low), 0.0, 1.0) : 0.0;
     double share = std::pow(eta_slow / eta_fast, along);
+    // Where damage rules, strain goes on growing and stress hardly: the speed does not grow with it.
+    if (along < 0.5) {
+        slow_from_ = 0.0;
+    } else if (along >= 1.0 && slow_from_ == 0.0) {
+        slow_from_ = strain_;
+    }
+    const double base = slow_from_ > 0.0 ? slow_from_ : strain_;
     if (strain_ > 0.5 * scale_.first_damage) { // at the start nothing is stored yet, and nothing can break
         const auto limit = [&](double found, double allowed) { return found > allowed ? allowed / found : 1.0; };
         share *= std::sqrt(limit(r.kinetic, most_kinetic * r.elastic)) * limit(r.unbalanced, most_unbalanced);
     }
     share = std::max(share, lowest * eta_slow / eta_fast);
-    aim_ = pace_ * share * std::max(eta_fast * strain_, first_speed * scale_.first_damage);
+    aim_ = pace_ * share * std::max(eta_fast * base, first_speed * scale_.first_damage);
 }
 
 void RateControl::advance(double dt) {

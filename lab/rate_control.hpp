@@ -6,8 +6,9 @@
 //
 //  * An elastic specimen closing at eta has kinetic over elastic energy eta^2 / 12: eta_fast is bounded by the quasi-static verdict.
 //  * A crack needs about one crossing to run; what the stress gains meanwhile, about eta of the strength, is the rate's error. Once bonds
-//    break, eta falls to eta_slow. What leads it is the damage ratio: energy dissipated by damage over the work put in, of late. It is 0
-//    in the elastic range, whatever the speed, and its order of magnitude at the peak depends little on the specimen.
+//    break, eta falls to eta_slow, e being held at what it was then. What leads it is the damage ratio: energy dissipated by damage over
+//    the work put in, of late. It is 0 in the elastic range, whatever the speed, and its order of magnitude at the peak depends little on
+//    the specimen.
 //  * Kinetic over elastic energy and the unbalanced force ratio above half of what the verdict allows lower the speed further.
 //  * Acceleration costs stress differences of (1/8) (du/dt H/c) / e: it is bounded by a share of e, and follows its aim with a lag, so
 //    that no wave starts.
@@ -68,6 +69,7 @@ class RateControl {
         visit("damage", damage_);
         visit("recent_work", recent_work_);
         visit("recent_damage", recent_damage_);
+        visit("slow_from", slow_from_);
     }
 
     /// Damage ratio that leads the speed now.
@@ -84,6 +86,7 @@ class RateControl {
     double damage_ = 0.0;
     double recent_work_ = 0.0; // with the past forgotten, J
     double recent_damage_ = 0.0;
+    double slow_from_ = 0.0; // strain at which damage began to rule the speed; 0: it does not
 };
 
 } // namespace proveta

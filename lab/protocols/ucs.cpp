@@ -15,15 +15,16 @@ class Ucs : public Protocol {
   public:
     // 1. The standard: what it mimics and where it cannot.
     [[nodiscard]] ProtocolInfo about() const override {
-        return {"ucs",
-                "Uniaxial compression",
-                "A cylinder or prism is pressed between two rigid platens at a steady closing speed until its stress has fallen well "
-                "past the peak, or until an axial strain.",
-                {{"ASTM C39, EN 12390-3", "150 x 300 mm cylinder, compressive strength from peak load over nominal area",
-                  "loading rate: milliseconds instead of minutes, so the verdict on quasi-static loading must hold; no creep, no moisture"},
-                 {"ASTM D7012 method C and D", "modulus and Poisson's ratio from gauges at mid-height (tangent, secant and average)",
-                  "spherical seat: the platens stay parallel"},
-                 {"EN 12390-13", "secant modulus between a tenth and a third of the strength", "no preloading cycles"}}};
+        return {
+            "ucs",
+            "Uniaxial compression",
+            "A cylinder or prism is pressed between two rigid platens, at a steady closing speed or one that the test leads itself, until "
+            "its stress has fallen well past the peak, or until an axial strain.",
+            {{"ASTM C39, EN 12390-3", "150 x 300 mm cylinder, compressive strength from peak load over nominal area",
+              "loading rate: milliseconds instead of minutes, so the verdict on quasi-static loading must hold; no creep, no moisture"},
+             {"ASTM D7012 method C and D", "modulus and Poisson's ratio from gauges at mid-height (tangent, secant and average)",
+              "spherical seat: the platens stay parallel"},
+             {"EN 12390-13", "secant modulus between a tenth and a third of the strength", "no preloading cycles"}}};
     }
 
     void declare_loading(input::Visitor& v) override {
