@@ -45,6 +45,10 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     block_motion_.resize(loads.blocks().size());
     travel_ = 2.0 * skin_; // makes the first search happen
     search();
+    const bool short_step = numerics_.time_step && *numerics_.time_step <= stable_; // asked for, and stable with true masses
+    scaling_ =
+        scale_masses(spheres, bonds, materials, weight_, contacts, platens, skin_, short_step ? 0.0 : numerics_.mass_scaling, bound_);
+    stable_ = scaling_.step_after;
     dt_ = numerics_.safety * stable_;
     if (numerics_.time_step) {
         dt_ = *numerics_.time_step;
@@ -62,6 +66,11 @@ void Model::step(const std::vector<double>& speeds, bool measure) {
     const auto searched = Clock::now();
     // The first forces are those of the start: velocities count, but nothing has moved yet.
     const bool first = steps_ == 0;
+    if (!scaling_.mass.empty() && !numerics_.gravity.isZero()) { // the mass added for the step's sake weighs nothing
+        for (std::size_t k = 0; k < spheres.size(); ++k) {
+            spheres.external_force.add(k, (scaling_.mass[k] - spheres.mass[k]) * numerics_.gravity);
+        }
+    }
     forces(first ? 1e-9 * dt_ : dt_, measure || first);
     const auto loaded = Clock::now();
     motion(speeds, measure);
@@ -201,7 +210,8 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
     if (measure && !numerics_.gravity.isZero()) {
         ledger_.body = 0.0;
         for (std::size_t k = 0; k < spheres.size(); ++k) {
-            ledger_.body += spheres.mass[k] * numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
+            ledger_.body += (scaling_.mass.empty() ? spheres.mass[k] : scaling_.mass[k]) *
+                            numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
         }
     }
     const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity};

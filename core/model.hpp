@@ -14,6 +14,7 @@
 #include "core/boundaries/pressure.hpp"
 #include "core/contacts/contacts.hpp"
 #include "core/energy/ledger.hpp"
+#include "core/motion/mass_scaling.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/stable_step.hpp"
 #include "core/parallel/team.hpp"
@@ -26,6 +27,7 @@ struct Numerics {
     std::optional<double> time_step; ///< s; empty: safety times the stable step
     double safety = 0.9;             ///< fraction of the bound on the stable step
     double skin = 0.1;               ///< of the neighbour lists, over the mean radius
+    double mass_scaling = 0.0;       ///< largest mass that may be added to spheres that limit the step, over the specimen's
     BackgroundDamping damping;
     Scheme scheme = Scheme::velocity_verlet;
     Vec3 gravity = Vec3::Zero(); ///< m/s2
@@ -71,6 +73,7 @@ class Model {
     [[nodiscard]] double first_dt() const { return first_dt_; }  ///< step at the start; `dt` is below it once new contacts ask for that, s
     [[nodiscard]] double stable_step() const { return stable_; } ///< bound at the last search, s
     [[nodiscard]] double time() const { return time_; }          ///< s
+    [[nodiscard]] const MassScaling& mass_scaling() const { return scaling_; } ///< masses in `spheres` are the scaled ones
     [[nodiscard]] std::int64_t steps() const { return steps_; }
     [[nodiscard]] const Ledger& ledger() const { return ledger_; }
     [[nodiscard]] const StepMeasures& measures() const { return measures_; }
@@ -121,6 +124,7 @@ class Model {
     std::vector<double> weight_;
     Numerics numerics_;
     StepBound bound_;
+    MassScaling scaling_;
     double skin_ = 0.0;
     double travel_ = 0.0;     // bound on how far anything has moved since the last search, m
     VectorField searched_at_; // positions then

@@ -168,6 +168,7 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     }
     numerics.safety = deck.numerics.safety;
     numerics.skin = deck.numerics.skin;
+    numerics.mass_scaling = deck.numerics.mass_scaling;
     numerics.damping = {deck.numerics.damping_translation, deck.numerics.damping_rotation, deck.numerics.damping == "viscous"};
     numerics.scheme = deck.numerics.scheme == "symplectic_euler" ? Scheme::symplectic_euler
                       : deck.numerics.scheme == "forward_euler"  ? Scheme::forward_euler

@@ -58,6 +58,10 @@ void declare(input::Visitor& v, NumericsInput& n) {
     v.number("damping_rotation", n.damping_rotation, Unit::none, at_least(0),
              "alpha_r of the background damping, below 1; viscous: rate in 1/s");
     v.number("skin", n.skin, Unit::none, between(0.01, 2), "skin of the neighbour lists over the mean radius; changes speed, not results");
+    v.number(
+        "mass_scaling", n.mass_scaling, Unit::none, between(0, 1),
+        "mass that may be added to the small spheres that limit the time step, over the specimen's; their inertia grows with it, weight, "
+        "stiffness and strength do not; 0: none");
 }
 
 void declare(input::Visitor& v, OutputInput& o) {

@@ -102,7 +102,8 @@ report::Table Instruments::empty_curve() const {
                  {"broken_bonds", "", "failed bonds so far"},
                  {"broken_in_tension", "", "of these in tension"},
                  {"broken_in_shear", "", "of these in shear"},
-                 {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"}};
+                 {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"},
+                 {"rate", "m/s", "closing speed of the platens"}};
     return t;
 }
 
@@ -144,10 +145,26 @@ void Instruments::sample(const Bench& bench, report::Table& curve, report::Table
     girth /= std::max(1.0, on_girth);
     const Mat3 inner = mean_stress(m, inner_);
     const double stress = 0.5 * (bottom + top) / section_;
-    curve.rows.push_back({m.time(), strain, stress, stress, gauge, girth, gauge + (m.spheres.planar ? 1.0 : 2.0) * girth, bottom, top,
-                          inner(0, 0), inner(1, 1), inner(2, 2), inner(0, 1), inner(1, 2), inner(2, 0),
-                          static_cast<double>(broken_tension_ + broken_shear_), static_cast<double>(broken_tension_),
-                          static_cast<double>(broken_shear_), m.measures().unbalanced_ratio});
+    curve.rows.push_back({m.time(),
+                          strain,
+                          stress,
+                          stress,
+                          gauge,
+                          girth,
+                          gauge + (m.spheres.planar ? 1.0 : 2.0) * girth,
+                          bottom,
+                          top,
+                          inner(0, 0),
+                          inner(1, 1),
+                          inner(2, 2),
+                          inner(0, 1),
+                          inner(1, 2),
+                          inner(2, 0),
+                          static_cast<double>(broken_tension_ + broken_shear_),
+                          static_cast<double>(broken_tension_),
+                          static_cast<double>(broken_shear_),
+                          m.measures().unbalanced_ratio,
+                          m.platens[0].velocity - m.platens[1].velocity});
     const Ledger& l = m.ledger();
     energy.rows.push_back(
         {m.time(), strain, l.platens, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots, l.background, l.residual()});

@@ -14,6 +14,7 @@ namespace {
 constexpr double most_imbalance = 0.02;
 constexpr double most_kinetic = 0.01;
 constexpr double most_unbalanced = 0.01;
+constexpr double most_rate_effect = 0.03;
 constexpr double most_residual = 0.01;
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
@@ -22,7 +23,7 @@ std::string against(double found, double allowed) { return fmt::format("{} (allo
 
 } // namespace
 
-report::Badge quasi_static_verdict(const report::Table& curve, const report::Table& energy) {
+report::Badge quasi_static_verdict(const report::Table& curve, const report::Table& energy, const std::optional<RateCheck>& check) {
     report::Badge badge{"Quasi-static loading", false, "", {}};
     const auto stress = curve.values("axial_stress");
     const auto bottom = curve.values("force_bottom");
@@ -45,12 +46,44 @@ report::Badge quasi_static_verdict(const report::Table& curve, const report::Tab
         unbalanced = std::max(unbalanced, ratio[k]);
     }
     badge.good = imbalance <= most_imbalance && motion <= most_kinetic && unbalanced <= most_unbalanced;
-    badge.verdict = badge.good ? "yes" : "no: load more slowly, or read the strength as a dynamic one";
+    const bool confirmed = check && check->difference <= most_rate_effect;
+    const char* yes = confirmed ? "yes, and half the rate confirms the peak" : "yes; the rate was not checked";
+    const bool refuted = check && !confirmed;
+    badge.verdict = badge.good && !refuted ? yes : "no: load more slowly, or read the strength as a dynamic one";
+    badge.good = badge.good && !refuted;
     badge.figures = {{"difference of the platens' forces over their mean, worst", against(imbalance, most_imbalance)},
                      {"kinetic over elastic energy, worst", against(motion, most_kinetic)},
                      {"unbalanced force ratio, worst", against(unbalanced, most_unbalanced)},
-                     {"judged", "from 20 % of the peak stress to the peak"}};
+                     {"judged", "from 20 % of the peak stress to the peak"},
+                     {"peak against that at half the rate",
+                      check ? against(check->difference, most_rate_effect) : "not checked (\"rate_check\": \"half_rate\" does)"}};
     return badge;
+}
+
+std::vector<report::Scalar> rate_results(const report::Table& curve) {
+    const auto stress = curve.values("axial_stress");
+    const auto rate = curve.values("rate");
+    const std::size_t peak = peak_index(stress);
+    const auto first = stress.empty() ? std::nullopt : first_reaching(stress, 0.2 * stress[peak], peak);
+    std::optional<double> lowest;
+    std::optional<double> highest;
+    std::optional<double> mean;
+    if (first && *first < peak) {
+        const auto from = rate.begin() + static_cast<std::ptrdiff_t>(*first);
+        const auto to = rate.begin() + static_cast<std::ptrdiff_t>(peak) + 1;
+        lowest = *std::min_element(from, to);
+        highest = *std::max_element(from, to);
+        const auto time = curve.values("time");
+        double travel = 0.0;
+        for (std::size_t k = *first; k < peak; ++k) {
+            travel += 0.5 * (rate[k] + rate[k + 1]) * (time[k + 1] - time[k]);
+        }
+        mean = travel / (time[peak] - time[*first]);
+    }
+    const char* range = "closing speed of the platens, from 20 % of the peak stress to the peak";
+    return {{"lowest_rate", "Lowest rate", lowest, "m/s", range},
+            {"mean_rate", "Mean rate", mean, "m/s", range},
+            {"highest_rate", "Highest rate", highest, "m/s", range}};
 }
 
 report::Badge energy_verdict(const report::Table& energy) {

@@ -105,6 +105,7 @@ report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
                                          bench.dropped, 100.0 * bench.laguerre->unbonded_share, bench.laguerre->volume_ratio,
                                          bench.laguerre->without_cell)});
     }
+    t.rows.push_back({"Mass scaling", text_of(bench.model->mass_scaling())});
     return t;
 }
 
@@ -156,9 +157,12 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     r.stopped_by = data.stopped_by;
     if (!data.curve.rows.empty()) {
         r.results = deck.protocol->results(data.curve, data.energy);
+        for (auto& scalar : rate_results(data.curve)) {
+            r.results.push_back(std::move(scalar));
+        }
         r.plots = plots(data);
     }
-    r.badges = {quasi_static_verdict(data.curve, data.energy), energy_verdict(data.energy)};
+    r.badges = {quasi_static_verdict(data.curve, data.energy, data.rate_check), energy_verdict(data.energy)};
     if (status == "interrupted") {
         r.warnings.emplace_back("This result is partial: the run was interrupted.");
     } else if (status == "failed") {
@@ -199,7 +203,7 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     return r;
 }
 
-input::Json summary(const report::Record& r, const Bench& bench, double seconds) {
+input::Json summary(const report::Record& r, const Bench& bench, const TestData& data, double seconds) {
     input::Json j;
     j["title"] = r.title;
     j["status"] = r.status;
@@ -239,10 +243,31 @@ input::Json summary(const report::Record& r, const Bench& bench, double seconds)
     }
     j["steps"] = bench.model->steps();
     j["time_step_s"] = bench.model->dt();
+    const MassScaling& scaling = bench.model->mass_scaling();
+    j["mass_scaling"] = {{"added_mass", scaling.added},
+                         {"spheres", scaling.spheres},
+                         {"largest_factor", scaling.largest_factor},
+                         {"stable_step_without_s", scaling.step_before},
+                         {"stable_step_with_s", scaling.step_after}};
+    if (data.rate_check) {
+        j["rate_check"] = {{"peak_at_half_rate_Pa", data.rate_check->peak},
+                           {"peak_at_rate_over_that_minus_1", data.rate_check->difference},
+                           {"steps", data.rate_check->steps}};
+    } else {
+        j["rate_check"] = "not done";
+    }
     j["final_state_hash"] = hex(bench.model->state_hash());
     j["wall_time_of_loading_s"] = seconds;
     j["threads"] = omp_get_max_threads();
     return j;
+}
+
+std::string text_of(const MassScaling& s) {
+    if (s.spheres == 0) {
+        return "none";
+    }
+    return fmt::format("{:.2f} % added mass on {} spheres, at most {:.3g} times the true one; stable step {:.3g} s instead of {:.3g} s",
+                       100.0 * s.added, s.spheres, s.largest_factor, s.step_after, s.step_before);
 }
 
 std::string as_text(const report::Record& r) {

@@ -16,7 +16,10 @@ report::Table event_table(const std::vector<FailureEvent>& events);
 report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::string& status);
 
 /// summary.json.
-input::Json summary(const report::Record& record, const Bench& bench, double seconds);
+input::Json summary(const report::Record& record, const Bench& bench, const TestData& data, double seconds);
+
+/// What mass scaling did, in a sentence.
+std::string text_of(const MassScaling& scaling);
 
 /// Results and verdicts for a terminal.
 std::string as_text(const report::Record& record);

@@ -10,6 +10,7 @@
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
+#include "lab/rate_check.hpp"
 #include "lab/results.hpp"
 #include "lab/test_run.hpp"
 #include "reports/files.hpp"
@@ -80,6 +81,9 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     if (!options.quiet) {
         spdlog::info("{} bonds, {:.2f} a sphere; step {:.3g} s of at most {:.3g} s; set up in {:.1f} s", bench.model->bonds.size(),
                      bench.coordination, bench.model->dt(), bench.model->stable_step(), since(before_set_up));
+        if (const auto& scaling = bench.model->mass_scaling(); scaling.spheres > 0) {
+            spdlog::info("{}", text_of(scaling));
+        }
     }
 
     out.begin();
@@ -100,7 +104,15 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     };
     hooks.fields = [&] { series.write(bench); };
     hooks.interrupted = interrupted;
-    const TestData data = run_protocol(deck, bench, hooks);
+    TestData data = run_protocol(deck, bench, hooks);
+    const double seconds = since(loading);
+    if (deck.protocol->checks_rate() && data.failure.empty() && !data.interrupted) {
+        data.rate_check = check_rate(deck, bench.specimen, data.curve, interrupted, [&](const TestData& again, double done) {
+            if (!again.curve.rows.empty()) {
+                progress.show("half-rate check: " + progress_line(bench, again, done, since(loading)));
+            }
+        });
+    }
     progress.end_line();
 
     const RunStatus status = !data.failure.empty() ? RunStatus::failed : data.interrupted ? RunStatus::interrupted : RunStatus::complete;
@@ -113,7 +125,7 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     const report::Record record = make_record(deck, bench, data, name(status));
     report::write_json(out.file("manifest.json"), manifest(deck, bench, options.command, name(status), started, folder));
     report::write_file(out.file("report.html"), report::to_html(record));
-    report::write_json(out.file("summary.json"), summary(record, bench, since(loading)));
+    report::write_json(out.file("summary.json"), summary(record, bench, data, seconds));
     fmt::print("{}", as_text(record));
     fmt::print("results in {}\n", folder);
     return status;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lab/fields.hpp"
+#include "lab/stages.hpp"
 
 namespace proveta {
 
@@ -49,9 +50,17 @@ void record_failures(const Model& model, double strain, Instruments& instruments
     }
 }
 
+void lead(const Model& model, double strain, bool look, RateControl& rate) {
+    if (look) {
+        const Ledger& l = model.ledger();
+        rate.observe({strain, l.platens + l.pressure, l.damage, l.kinetic, l.elastic, model.measures().unbalanced_ratio});
+    }
+    rate.advance(model.dt());
+}
+
 } // namespace
 
-TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks) {
+TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant) {
     Model& model = *bench.model;
     Instruments instruments(bench);
     TestData data;
@@ -66,7 +75,7 @@ TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks) {
     std::int64_t field = 0;
     PeakWatch watch;
     const BenchView view{model, bench.specimen.shape, bench.wave_speed, data.curve};
-    const auto stages = deck.protocol->stages();
+    const auto stages = deck.protocol->stages(view, variant.pace);
 
     try {
         for (const auto& stage : stages) {
@@ -75,7 +84,11 @@ TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks) {
                 const double strain = instruments.nominal_strain(model);
                 const bool due = strain >= static_cast<double>(sample) * per_sample;
                 const double in_stage = model.time() - begun;
-                model.step(stage.speeds(view, in_stage), due);
+                const bool look = stage.rate && stage.rate->looks_at(model.steps());
+                model.step(stage.speeds(view, in_stage), due || look);
+                if (stage.rate) {
+                    lead(model, strain, look, *stage.rate);
+                }
                 record_failures(model, strain, instruments, data.events);
                 if (!due) {
                     if (model.steps() % 256 == 0) {
@@ -96,6 +109,8 @@ TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks) {
                 data.interrupted = hooks.interrupted();
                 if (const auto why = deck.protocol->stop(view)) {
                     data.stopped_by = *why;
+                } else if (const auto fell = stopped_by({1.0, variant.until_drop}, data.curve)) {
+                    data.stopped_by = *fell;
                 }
                 over = data.interrupted || !data.stopped_by.empty() || (stage.finished && stage.finished(view, in_stage));
             }

@@ -7,6 +7,7 @@
 
 #include "lab/bench.hpp"
 #include "lab/instruments.hpp"
+#include "lab/rate_check.hpp"
 #include "reports/record/record.hpp"
 
 namespace proveta {
@@ -27,8 +28,15 @@ struct TestData {
     std::vector<FailureEvent> events;
     std::vector<report::Picture> pictures; ///< before, at peak, 20 % past it, at the end
     std::string stopped_by;
-    std::string failure; ///< non-empty: the calculation failed, and how
+    std::optional<RateCheck> rate_check; ///< empty: none was made
+    std::string failure;                 ///< non-empty: the calculation failed, and how
     bool interrupted = false;
+};
+
+/// How a test is run other than as its deck says.
+struct TestVariant {
+    double pace = 1.0;       ///< factor on all speeds
+    double until_drop = 1.0; ///< also ends when this share of the peak stress has been lost; 1: never
 };
 
 /// Hooks of whoever watches the test.
@@ -39,6 +47,6 @@ struct TestHooks {
 };
 
 /// Runs the protocol on the bench until it stops.
-TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks);
+TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant = {});
 
 } // namespace proveta

@@ -44,21 +44,16 @@ struct Block {
         stiffness.bottomRightCorner<3, 3>() += weight * (bend * (Mat3::Identity() - nn) + twist * nn);
     }
 
-    // Step at which lambda(K) dt^2 + 2 lambda(C) dt + rolling = 4, and the stiffness eigenvalue.
-    std::pair<double, double> limit(double mass, double inertia, bool damped) const {
+    // What the bound asks of the sphere.
+    SphereDemand demand(double mass, double inertia) const {
         Eigen::Matrix<double, 6, 1> scale;
         scale << Vec3::Constant(1.0 / std::sqrt(mass)), Vec3::Constant(1.0 / std::sqrt(inertia));
         auto largest = [&](const Mat6& m) {
             const Mat6 scaled = scale.asDiagonal() * m * scale.asDiagonal();
             return std::max(Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5], 0.0);
         };
-        const double k = largest(stiffness);
-        const double c = damped ? largest(damping) : 0.0;
-        if (k <= 0.0) {
-            return {1e300, k};
-        }
-        const double left = std::max(4.0 - rolling, 0.04); // more than seventy neighbours that all roll on one sphere are out of reach
-        return {left / (c + std::sqrt(c * c + left * k)), k};
+        // More than seventy neighbours that all roll on one sphere are out of reach.
+        return {largest(stiffness), damping.isZero() ? 0.0 : largest(damping), std::max(4.0 - rolling, 0.04)};
     }
 };
 
@@ -122,6 +117,8 @@ std::vector<double> shear_stiffness(const Bonds& bonds) {
 
 } // namespace
 
+double SphereDemand::step() const { return stiffness > 0.0 ? left / (damping + std::sqrt(damping * damping + left * stiffness)) : 1e300; }
+
 StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.0) {
     const auto k_t = shear_stiffness(bonds);
     const auto law = laws_of(bonds);
@@ -136,7 +133,7 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
         for (std::size_t k = 0; k < s.size(); ++k) {
             Block block;
             add_bonds(s, bonds, k_t, law, k, share_, block);
-            eigenvalue[k] = block.limit(s.mass[k], s.inertia[k], false).second;
+            eigenvalue[k] = block.demand(s.mass[k], s.inertia[k]).stiffness;
         }
         const double largest = eigenvalue.empty() ? 0.0 : *std::max_element(eigenvalue.begin(), eigenvalue.end());
         for (std::size_t k = 0; k < s.size() && sweep == 0; ++k) {
@@ -154,8 +151,14 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
     share_ = best;
 }
 
-double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
-                        double skin) const {
+void StepBound::hand_over(const std::vector<double>& factor) {
+    for (std::size_t k = 0; k < share_.size(); ++k) {
+        share_[k] = std::clamp(share_[k] * std::sqrt(factor[k]), 1e-3, 1.0);
+    }
+}
+
+std::vector<SphereDemand> StepBound::demands(const Spheres& s, const Bonds& bonds, const Contacts& contacts,
+                                             const std::vector<Platen>& platens, double skin) const {
     const auto k_t = shear_stiffness(bonds);
     const auto law = laws_of(bonds);
     std::vector<std::vector<std::pair<std::size_t, std::size_t>>> walls(s.size()); // (platen, entry) of each sphere
@@ -164,8 +167,8 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
             walls[static_cast<std::size_t>(platens[p].sphere[e])].emplace_back(p, e);
         }
     }
-    double lowest = 1e300;
-#pragma omp parallel for schedule(static) reduction(min : lowest) if (s.size() > 256)
+    std::vector<SphereDemand> out(s.size());
+#pragma omp parallel for schedule(static) if (s.size() > 256)
     for (std::size_t k = 0; k < s.size(); ++k) {
         Block block;
         add_bonds(s, bonds, k_t, law, k, share_, block);
@@ -183,7 +186,16 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
                       platen.contact_distance[e], 1.0);
             block.rolling += platen.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
         }
-        lowest = std::min(lowest, block.limit(s.mass[k], s.inertia[k], true).first);
+        out[k] = block.demand(s.mass[k], s.inertia[k]);
+    }
+    return out;
+}
+
+double StepBound::limit(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
+                        double skin) const {
+    double lowest = 1e300;
+    for (const auto& demand : demands(spheres, bonds, contacts, platens, skin)) {
+        lowest = std::min(lowest, demand.step());
     }
     return lowest;
 }

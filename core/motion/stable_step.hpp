@@ -1,6 +1,7 @@
 // The largest stable step, bounded from below rigorously, sphere by sphere.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/bonds/bonds.hpp"
@@ -9,6 +10,18 @@
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
+
+/// What the bound asks of one sphere: it is stable while stiffness dt^2 + 2 damping dt <= left. Eigenvalues over the sphere's mass and
+/// inertia, so that both fall with a factor on these.
+struct SphereDemand {
+    double stiffness = 0.0; ///< 1/s2
+    double damping = 0.0;   ///< 1/s
+    double left = 4.0;      ///< of the 4, after rolling resistance
+
+    [[nodiscard]] double step() const; ///< largest step, s
+    /// Factor on mass and inertia at which a step of dt seconds is the largest; below 1 where the sphere could be lighter.
+    [[nodiscard]] double factor(double dt) const { return (stiffness * dt + 2.0 * damping) * dt / left; }
+};
 
 /// Lower bound on the critical step of velocity Verlet with velocities that lag half a step: lambda_max[M^-1 (dt^2 K + 2 dt C)] <= 4.
 ///
@@ -20,10 +33,19 @@ class StepBound {
   public:
     StepBound(const Spheres& spheres, const Bonds& bonds);
 
+    /// Begins another split, even at first.
+    void level() { std::fill(share_.begin(), share_.end(), 1.0); }
+    /// Hands springs over to spheres that have mass to spare, while `factor`, the demanded mass over the true one, is below 1; between two
+    /// spheres that both ask for mass an even split asks for least.
+    void hand_over(const std::vector<double>& factor);
+
     /// The bound in s, with the pairs of the contact list and the platens taken as closed. skin: how much overlaps may still grow before
     /// the next search, m; laws that stiffen with overlap count as stiff as they can get by then.
     [[nodiscard]] double limit(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
                                double skin = 0.0) const;
+    /// The same sphere by sphere: the bound is the lowest of their steps.
+    [[nodiscard]] std::vector<SphereDemand> demands(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
+                                                    const std::vector<Platen>& platens, double skin = 0.0) const;
 
   private:
     std::vector<double> share_;  // g for bonds, tuned to their network

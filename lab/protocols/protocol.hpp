@@ -10,6 +10,7 @@
 
 #include "core/input/json.hpp"
 #include "core/model.hpp"
+#include "lab/rate_control.hpp"
 #include "reports/record/record.hpp"
 #include "specimens/specimen.hpp"
 
@@ -43,6 +44,7 @@ struct Stage {
     std::string name;
     std::function<std::vector<double>(const BenchView&, double time)> speeds; ///< of each platen, m/s
     std::function<bool(const BenchView&, double time)> finished;              ///< asked at samples; the last stage ends by stop rules
+    std::shared_ptr<RateControl> rate; ///< leads the speeds; it is shown the model and taken along step by step. Or null
 };
 
 class Protocol {
@@ -61,7 +63,10 @@ class Protocol {
     /// Boundaries for the specimen.
     [[nodiscard]] virtual std::vector<Platen> platens(const Spheres& spheres, const Shape& shape) const = 0;
     /// Part 2.
-    [[nodiscard]] virtual std::vector<Stage> stages() const = 0;
+    /// pace: factor on all speeds, for a check that they do not matter.
+    [[nodiscard]] virtual std::vector<Stage> stages(const BenchView& bench, double pace) const = 0;
+    /// True when the test is to be run again at half the rate.
+    [[nodiscard]] virtual bool checks_rate() const { return false; }
     /// Nominal axial strain that the samples are spread over.
     [[nodiscard]] virtual double strain_range() const = 0;
     /// Part 4: why the test is over, asked at every sample.

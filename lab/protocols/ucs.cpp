@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/closing_rate.hpp"
 #include "lab/derived.hpp"
 #include "lab/protocols/protocol.hpp"
 #include "lab/stages.hpp"
@@ -14,21 +15,20 @@ class Ucs : public Protocol {
   public:
     // 1. The standard: what it mimics and where it cannot.
     [[nodiscard]] ProtocolInfo about() const override {
-        return {"ucs",
-                "Uniaxial compression",
-                "A cylinder or prism is pressed between two rigid platens at a steady closing speed until its stress has fallen well "
-                "past the peak, or until an axial strain.",
-                {{"ASTM C39, EN 12390-3", "150 x 300 mm cylinder, compressive strength from peak load over nominal area",
-                  "loading rate: milliseconds instead of minutes, so the verdict on quasi-static loading must hold; no creep, no moisture"},
-                 {"ASTM D7012 method C and D", "modulus and Poisson's ratio from gauges at mid-height (tangent, secant and average)",
-                  "spherical seat: the platens stay parallel"},
-                 {"EN 12390-13", "secant modulus between a tenth and a third of the strength", "no preloading cycles"}}};
+        return {
+            "ucs",
+            "Uniaxial compression",
+            "A cylinder or prism is pressed between two rigid platens, at a steady closing speed or one that the test leads itself, until "
+            "its stress has fallen well past the peak, or until an axial strain.",
+            {{"ASTM C39, EN 12390-3", "150 x 300 mm cylinder, compressive strength from peak load over nominal area",
+              "loading rate: milliseconds instead of minutes, so the verdict on quasi-static loading must hold; no creep, no moisture"},
+             {"ASTM D7012 method C and D", "modulus and Poisson's ratio from gauges at mid-height (tangent, secant and average)",
+              "spherical seat: the platens stay parallel"},
+             {"EN 12390-13", "secant modulus between a tenth and a third of the strength", "no preloading cycles"}}};
     }
 
     void declare_loading(input::Visitor& v) override {
-        v.number("rate", rate_, input::Unit::velocity, {0.0, 10.0, true, false}, "closing speed of the platens, each moving at half of it");
-        v.number_or_word("ramp", ramp_, {{"auto", "the time in which a wave crosses the specimen twenty times"}}, input::Unit::time,
-                         input::at_least(0), "time in which the platens reach their speed");
+        declare_rate(v, rate_);
         declare_friction(v, friction_);
         v.number("platen_stiffness", platen_stiffness_, input::Unit::none, {0.0, 10.0, true, false},
                  "stiffness of the contact between platen and specimen over the one with which the platens add no compliance");
@@ -55,14 +55,13 @@ class Ucs : public Protocol {
         return platens;
     }
 
-    [[nodiscard]] std::vector<Stage> stages() const override {
-        const auto speeds = [this](const BenchView& bench, double time) {
-            const double ramp = ramp_.word == "auto" ? 20.0 * bench.shape.height / bench.wave_speed : ramp_.number;
-            const double v = 0.5 * rate_ * smooth_start(time, ramp);
-            return std::vector<double>{v, -v};
-        };
-        return {{"loading", speeds, nullptr}};
+    [[nodiscard]] std::vector<Stage> stages(const BenchView& bench, double pace) const override {
+        // Bonds across the load are stretched by Poisson's ratio of the axial strain, some of them twice as far as the mean.
+        const double first_damage = std::min(2.5 * lowest_tensile_strain(bench.model.bonds), 0.1 * stop_.axial_strain);
+        return {closing_stage(rate_, bench, first_damage, pace)};
     }
+
+    [[nodiscard]] bool checks_rate() const override { return rate_.check == "half_rate"; }
 
     // 4. Measurements are the bench's; stop rules.
     [[nodiscard]] double strain_range() const override { return stop_.axial_strain; }
@@ -129,8 +128,7 @@ class Ucs : public Protocol {
     }
 
   private:
-    double rate_ = 0.05;
-    input::NumberOrWord ramp_{0.0, "auto"};
+    ClosingRate rate_;
     input::NumberOrWord friction_{0.3, ""};
     double platen_stiffness_ = 1.0;
     StopRules stop_;

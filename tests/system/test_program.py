@@ -67,6 +67,36 @@ class Running(Case):
         self.assertNotIn("https://", page)
         self.assertTrue(list((out / "fields").glob("spheres_*.vtp")))
 
+    def test_a_run_at_the_rate_that_suits_it_says_what_it_chose(self):
+        loading = {"rate": "auto", "rate_check": "half_rate", "stop": {"axial_strain": 0.004}}
+        deck = self.deck(loading=loading, numerics={"mass_scaling": 0.02})
+        done = self.run_program("run", deck, "--out", "result", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads((self.folder / "result" / "summary.json").read_text())
+        rate = {k: summary["results"][k + "_rate"]["value"] for k in ["lowest", "mean", "highest"]}
+        self.assertLess(0.0, rate["lowest"])
+        self.assertLess(rate["lowest"], 0.5 * rate["mean"] + 0.5 * rate["highest"])
+        self.assertLess(rate["mean"], rate["highest"])
+        column = [float(r["rate_m/s"]) for r in self.rows(self.folder / "result" / "curve.csv")]
+        self.assertAlmostEqual(max(column), rate["highest"], delta=0.2 * max(column))
+        self.assertLess(column[0], 0.1 * max(column))
+        self.assertGreater(summary["rate_check"]["peak_at_half_rate_Pa"], 1e6)
+        self.assertIn("half the rate", json.dumps(summary["verdicts"]["Quasi-static loading"]["figures"]))
+        scaling = summary["mass_scaling"]
+        self.assertTrue(0.0 < scaling["added_mass"] <= 0.02 + 1e-9)
+        self.assertGreater(scaling["stable_step_with_s"], 1.3 * scaling["stable_step_without_s"])
+        self.assertIn("added mass", (self.folder / "result" / "report.html").read_text())
+
+        deck = self.deck(name="off.json", loading={"rate": "auto", "stop": {"axial_strain": 0.0005}}, numerics={"mass_scaling": 0})
+        self.assertEqual(self.run_program("run", deck, "--out", "off", "--quiet").returncode, 0)
+        summary = json.loads((self.folder / "off" / "summary.json").read_text())
+        self.assertEqual(summary["rate_check"], "not done")
+        self.assertEqual(summary["mass_scaling"]["added_mass"], 0.0)
+        wrong = self.run_program("check", self.deck(name="wrong.json", loading={"rate": "atuo"}, numerics={"mass_scaling": 2}))
+        self.assertEqual(wrong.returncode, 2)
+        for text in ["/loading/rate", '"auto"', "/numerics/mass_scaling"]:
+            self.assertIn(text, wrong.stderr)
+
     def test_threads_and_the_manifest_repeat_a_run_to_the_byte(self):
         deck = self.deck()
         self.assertEqual(self.run_program("run", deck, "--out", "one", "--threads", 1, "--quiet").returncode, 0)

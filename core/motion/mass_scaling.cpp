@@ -1,0 +1,99 @@
+#include "core/motion/mass_scaling.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace proveta {
+
+namespace {
+
+// The least factors on the true masses with which every sphere is stable at dt, and the mass that they add, kg. demand: of the spheres
+// with the masses they have now.
+double factors_at(double dt, const std::vector<SphereDemand>& demand, const std::vector<double>& now, const std::vector<double>& mass,
+                  std::vector<double>& factor) {
+    double added = 0.0;
+    for (std::size_t k = 0; k < mass.size(); ++k) {
+        factor[k] = std::max(1.0, demand[k].factor(dt) * now[k] / mass[k]);
+        added += (factor[k] - 1.0) * mass[k];
+    }
+    return added;
+}
+
+// The largest step that the allowed mass reaches, and its factors.
+double best_step(double allowed, const std::vector<SphereDemand>& demand, const std::vector<double>& now, const std::vector<double>& mass,
+                 std::vector<double>& factor) {
+    double low = 1e300;
+    for (const auto& d : demand) {
+        low = std::min(low, d.step());
+    }
+    double high = low;
+    while (factors_at(low, demand, now, mass, factor) > allowed) { // the last round overspent
+        low *= 0.5;
+    }
+    while (high < 1e3 * low && factors_at(high, demand, now, mass, factor) <= allowed) {
+        high *= 2.0;
+    }
+    for (int k = 0; k < 60; ++k) {
+        const double middle = 0.5 * (low + high);
+        (factors_at(middle, demand, now, mass, factor) <= allowed ? low : high) = middle;
+    }
+    factors_at(low, demand, now, mass, factor);
+    return low;
+}
+
+} // namespace
+
+MassScaling scale_masses(Spheres& s, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
+                         Contacts& contacts, std::vector<Platen>& platens, double skin, double share, StepBound& bound) {
+    MassScaling out;
+    const std::vector<double> mass = s.mass;
+    const std::vector<double> inertia = s.inertia;
+    const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
+    out.step_before = out.step_after = bound.limit(s, bonds, contacts, platens, skin);
+    if (share <= 0.0) {
+        return out;
+    }
+    std::vector<double> factor(s.size(), 1.0);
+    // First the splits of the springs, with true masses: the step that the share pays for grows from sweep to sweep, then settles.
+    StepBound tuned = bound;
+    StepBound best = bound;
+    double longest = 0.0;
+    tuned.level();
+    for (int sweep = 0; sweep < 12; ++sweep) {
+        const auto demand = tuned.demands(s, bonds, contacts, platens, skin);
+        const double dt = best_step(share * total, demand, mass, mass, factor);
+        if (dt > longest) {
+            longest = dt;
+            best = tuned;
+        }
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            factor[k] = demand[k].factor(dt);
+        }
+        tuned.hand_over(factor);
+    }
+    bound = best;
+    // Then the masses. Restitution follows them and the bound follows restitution: a few rounds.
+    for (int round = 0; round < 4; ++round) {
+        best_step(share * total, bound.demands(s, bonds, contacts, platens, skin), s.mass, mass, factor);
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            s.mass[k] = factor[k] * mass[k];
+            s.inertia[k] = factor[k] * inertia[k];
+        }
+        set_up_contacts(s, materials, weight, contacts);
+        for (auto& platen : platens) {
+            set_up_platen(s, materials, platen);
+        }
+    }
+    out.step_after = bound.limit(s, bonds, contacts, platens, skin);
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        out.added += (s.mass[k] - mass[k]) / total;
+        out.spheres += factor[k] > 1.0 ? 1 : 0;
+        out.largest_factor = std::max(out.largest_factor, factor[k]);
+    }
+    if (out.spheres > 0) {
+        out.mass = mass;
+    }
+    return out;
+}
+
+} // namespace proveta

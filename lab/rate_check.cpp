@@ -1,0 +1,35 @@
+#include "lab/rate_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/test_run.hpp"
+
+namespace proveta {
+
+std::optional<RateCheck> check_rate(const Deck& deck, const Specimen& specimen, const report::Table& curve,
+                                    const std::function<bool()>& interrupted,
+                                    const std::function<void(const TestData&, double done)>& progress) {
+    Bench bench = set_up(deck, specimen);
+    TestHooks hooks;
+    hooks.progress = [&](const TestData& data, double done) {
+        if (progress) {
+            progress(data, done);
+        }
+    };
+    hooks.fields = [] {};
+    hooks.interrupted = interrupted;
+    const TestData slow = run_protocol(deck, bench, hooks, {.pace = 0.5, .until_drop = 0.15});
+    const auto stress = slow.curve.values("axial_stress");
+    const auto full = curve.values("axial_stress");
+    if (slow.interrupted || !slow.failure.empty() || stress.empty() || full.empty()) {
+        return std::nullopt;
+    }
+    RateCheck out;
+    out.peak = *std::max_element(stress.begin(), stress.end());
+    out.difference = std::fabs(*std::max_element(full.begin(), full.end()) / out.peak - 1.0);
+    out.steps = bench.model->steps();
+    return out;
+}
+
+} // namespace proveta
