@@ -68,7 +68,7 @@ void Model::step(const std::vector<double>& speeds, bool measure) {
     const bool first = steps_ == 0;
     if (!scaling_.mass.empty() && !numerics_.gravity.isZero()) { // the mass added for the step's sake weighs nothing
         for (std::size_t k = 0; k < spheres.size(); ++k) {
-            spheres.external_force.add(k, (scaling_.mass[k] - spheres.mass[k]) * numerics_.gravity);
+            loads.add(k, (scaling_.mass[k] - spheres.mass[k]) * numerics_.gravity, Vec3::Zero());
         }
     }
     forces(first ? 1e-9 * dt_ : dt_, measure || first);

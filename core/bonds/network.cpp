@@ -8,6 +8,7 @@
 
 #include "core/bonds/bonds.hpp"
 #include "core/contacts/loads.hpp"
+#include "core/contacts/pair_kinematics.hpp"
 
 namespace proveta {
 
@@ -168,7 +169,8 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
         const Material& m = own.material;
         const auto i = static_cast<std::size_t>(pair.i);
         const auto j = static_cast<std::size_t>(pair.j);
-        const double d = (spheres.position.at(j) - spheres.position.at(i)).norm();
+        const Vec3 to = spheres.position.at(j) - spheres.position.at(i);
+        const double d = distance_at_rest(to.x(), to.y(), to.z());
         b.i[at] = pair.i;
         b.j[at] = pair.j;
         b.length[at] = d;

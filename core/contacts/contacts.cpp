@@ -84,7 +84,8 @@ void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materi
         const auto i = static_cast<std::size_t>(c.i[k]);
         const auto j = static_cast<std::size_t>(c.j[k]);
         c.first.resize(std::max(c.first.size(), i / spheres_per_block + 1), static_cast<std::uint32_t>(k));
-        c.contact_distance[k] = std::min((spheres.start.at(j) - spheres.start.at(i)).norm(), spheres.radius[i] + spheres.radius[j]);
+        const Vec3 to = spheres.start.at(j) - spheres.start.at(i);
+        c.contact_distance[k] = std::min(distance_at_rest(to.x(), to.y(), to.z()), spheres.radius[i] + spheres.radius[j]);
         const LoosePair& pair =
             pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
         const auto body = [&](std::size_t s) { return LooseBody{spheres.radius[s], spheres.mass[s], spheres.inertia[s]}; };

@@ -70,6 +70,12 @@ PROVETA_INLINE PairKinematics<T> pair_kinematics(const SphereView& s, const std:
     return k;
 }
 
+/// Distance of two centres by the very operations of `pair_kinematics`, so that a pair which has not moved has no overlap, to the last bit.
+PROVETA_INLINE double distance_at_rest(double x, double y, double z) {
+    const double square = x * x + y * y + z * z;
+    return square * inverse_sqrt(square);
+}
+
 /// Adds the pairs to their spheres' loads: normal force (compression positive) and shear force of j on i, in N. The contact point divides
 /// the line of centres in the proportion `share`, so that i gets this share of the moment d n x F as torque and j the rest: r_c x F (2.4-2.9).
 /// couple: moment of j on i besides, N m. Returns the force on i.
