@@ -22,6 +22,12 @@ template <class... Parts> std::string text(const Parts&... parts) {
     return out.str();
 }
 
+// Share of the stable step that non-viscous damping leaves. Its force may point along the spring force and is alpha times as large, so that
+// in the fastest mode it acts like springs stiffened by 1 + alpha.
+double damping_share(const BackgroundDamping& damping) {
+    return damping.viscous ? 1.0 : 1.0 / std::sqrt(1.0 + std::max(damping.translation, damping.rotation));
+}
+
 } // namespace
 
 UnstableStep::UnstableStep(double asked_step, double stable_step)
@@ -48,6 +54,8 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     const bool short_step = numerics_.time_step && *numerics_.time_step <= stable_; // asked for, and stable with true masses
     scaling_ =
         scale_masses(spheres, bonds, materials, weight_, contacts, platens, skin_, short_step ? 0.0 : numerics_.mass_scaling, bound_);
+    scaling_.step_before *= damping_share(numerics_.damping);
+    scaling_.step_after *= damping_share(numerics_.damping);
     stable_ = scaling_.step_after;
     dt_ = numerics_.safety * stable_;
     if (numerics_.time_step) {
@@ -112,9 +120,14 @@ void Model::search() {
     searched_at_ = spheres.position;
     travel_ = 0.0;
     ++searches_;
-    stable_ = bound_.limit(spheres, bonds, contacts, platens, skin_);
+    // What was stable stays the bound, unless new contacts have made the network too stiff for the step.
+    const double share = damping_share(numerics_.damping);
+    const double lowest = share * bound_.limit(spheres, bonds, contacts, platens, skin_, searches_ == 1 ? 1e300 : dt_ / share);
+    if (searches_ == 1 || lowest < dt_) {
+        stable_ = lowest;
+    }
     if (dt_ > stable_ && numerics_.refuse_unstable) {
-        dt_ = numerics_.safety * stable_; // new contacts have made the network stiffer
+        dt_ = numerics_.safety * stable_;
     }
 }
 

@@ -35,7 +35,7 @@ struct NumericsInput {
     double damping_translation = 0.2;
     double damping_rotation = 0.2;
     double skin = 0.1;
-    double mass_scaling = 0.0;
+    double mass_scaling = 0.02;
 };
 
 struct OutputInput {

@@ -24,8 +24,8 @@ struct Released {
 // energy; what damage takes of it goes to `lost`.
 // The moment of j on i goes to `couple`.
 template <class T>
-PROVETA_INLINE T bond_moments(const BondView& bonds, const BondLaw& law, std::size_t b, const PairKinematics<T>& pair, const T& k_n, const T& area,
-                      const T& stayed, const T& stays, T (&couple)[3], T& lost) {
+PROVETA_INLINE T bond_moments(const BondView& bonds, const BondLaw& law, std::size_t b, const PairKinematics<T>& pair, const T& k_n,
+                              const T& area, const T& stayed, const T& stays, T (&couple)[3], T& lost) {
     T theta[3];
     T axis[3]; // rotation of the bond's frame in the step: n x change of n, and the spin about n
     T old[3];
@@ -87,8 +87,8 @@ template <class T> PROVETA_INLINE void wear(std::uint8_t* worn) {
 
 // One group of lane_count<T>() bonds starting at b.
 template <class Law, class T, bool damped, bool moments, bool measure>
-PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const BondLaw& law, double* rows, std::size_t begin, std::size_t b,
-                       double dt, RunResult& out) {
+PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const BondLaw& law, double* rows, std::size_t begin,
+                               std::size_t b, double dt, RunResult& out) {
     using std::sqrt;
     const T u[3] = {load<T>(&bonds.slip[0][b]), load<T>(&bonds.slip[1][b]), load<T>(&bonds.slip[2][b])};
     const T share = load<T>(&bonds.share[b]);
@@ -134,8 +134,7 @@ PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const
     T couple[3] = {T(0.0), T(0.0), T(0.0)};
     if constexpr (moments) {
         T lost;
-        in_moments = bond_moments(bonds, law, b, pair, k_n, area, intact(d_n_old, d_t_old), intact(state.d_n, state.d_t), couple,
-                                  lost);
+        in_moments = bond_moments(bonds, law, b, pair, k_n, area, intact(d_n_old, d_t_old), intact(state.d_n, state.d_t), couple, lost);
         r.damage_work = r.damage_work + lost;
     }
 
@@ -151,7 +150,7 @@ PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const
             out.dissipation.plastic += in_lane(r.plastic_work, k);
         }
     }
-    if (any_of(broken)) {
+    if (any_of(r.friction_work != T(0.0))) {
         for (std::size_t k = 0; k < lane_count<T>(); ++k) {
             out.dissipation.friction += in_lane(r.friction_work, k);
         }
@@ -199,7 +198,9 @@ void run(const SphereView& s, const BondView& bonds, const BondLaw& law, double*
 void PROVETA_VARIANT(bond_kernel)(const SphereView& s, const BondView& bonds, const BondLaw& law, double* rows, std::size_t begin,
                                   std::size_t end, double dt, bool measure, RunResult& out) {
     out = {};
-    const auto pick = [&](auto* measured, auto* unmeasured) { (measure ? measured : unmeasured)(s, bonds, law, rows, begin, end, dt, out); };
+    const auto pick = [&](auto* measured, auto* unmeasured) {
+        (measure ? measured : unmeasured)(s, bonds, law, rows, begin, end, dt, out);
+    };
     // Rare variants take dashpots along, which cost them little.
     if (law.kind == LawKind::released) {
         pick(run<Released, true, false, true>, run<Released, true, false, false>);

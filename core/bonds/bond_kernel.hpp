@@ -30,10 +30,10 @@ struct BondView {
     double* slip[3];
     double *plastic, *damage_n, *damage_t, *damage_work;
     std::uint8_t *mode, *worn;
-    std::uint32_t* failures;                     ///< one a bond
-    double* force[3];                            ///< this and the next only when measuring
+    std::uint32_t* failures; ///< one a bond
+    double* force[3];        ///< this and the next only when measuring
     double *normal, *shear, *criterion, *stored;
-    double* rotation[3];                         ///< only of bonds with moments
+    double* rotation[3]; ///< only of bonds with moments
     double* couple[3];
     bool damped;
 };

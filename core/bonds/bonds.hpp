@@ -38,14 +38,14 @@ struct Bonds {
     std::vector<std::uint8_t> mode;         ///< FailureMode
     std::vector<std::uint8_t> worn;         ///< 0 as long as plastic shortening and damage are surely zero, so that they need not be read
     std::vector<std::uint32_t> failures;    ///< scratch of the kernel
-    Incidence incidence;  ///< bonds of each sphere
-    VectorField rotation; ///< theta of bonds with moments, rad; empty without
-    VectorField couple;   ///< moment of j on i of bonds with moments, N m; empty without
+    Incidence incidence;                    ///< bonds of each sphere
+    VectorField rotation;                   ///< theta of bonds with moments, rad; empty without
+    VectorField couple;                     ///< moment of j on i of bonds with moments, N m; empty without
     std::vector<BondLaw> laws;
     std::vector<BondBlock> blocks;
     std::vector<std::uint32_t> first_block; ///< of each block of spheres, and the number of blocks
-    bool damped = false;  ///< some bond has a dashpot
-    bool moments = false; ///< some bond resists bending or twisting
+    bool damped = false;                    ///< some bond has a dashpot
+    bool moments = false;                   ///< some bond resists bending or twisting
 
     // Filled on request by `bond_forces`, for output.
     VectorField force;             ///< of j on i, N

@@ -107,7 +107,8 @@ template <class T> PROVETA_INLINE T compression_envelope(const Parameters& p, co
 /// One step of one bond. Pure: everything comes in by argument and leaves by state and result.
 ///
 /// k_n in N/m and area in m2 are those of the bond; state is brought to the end of the step. Failure shows as damage reaching 1.
-template <class T> PROVETA_INLINE Response<T> advance(const Parameters& p, const T& k_n, const T& area, const Kinematics<T>& kin, State<T>& s) {
+template <class T>
+PROVETA_INLINE Response<T> advance(const Parameters& p, const T& k_n, const T& area, const Kinematics<T>& kin, State<T>& s) {
     using std::max;
     using std::min;
     using std::sqrt;
@@ -150,7 +151,7 @@ template <class T> PROVETA_INLINE Response<T> advance(const Parameters& p, const
         old[c] = s.u_t[c];
         trial[c] = old[c] + kin.slip[c];
     }
-    const T length2 = trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2];
+    const T length2 = dot(trial, trial);
     const T compression = max(r.normal, zero);
     const T strength_t = p.tau_f * area + p.mu_s * compression;
     if (any_of(k_t * k_t * length2 > strength_t * strength_t)) {
@@ -198,7 +199,8 @@ template <class T> PROVETA_INLINE Response<T> advance(const Parameters& p, const
 }
 
 /// Energy that the bond can give back, J: normal and tangential springs. Same arguments as `advance`, after it.
-template <class T> PROVETA_INLINE T stored_energy(const Parameters& p, const T& k_n, const T& shortening, const T& normal, const State<T>& s) {
+template <class T>
+PROVETA_INLINE T stored_energy(const Parameters& p, const T& k_n, const T& shortening, const T& normal, const State<T>& s) {
     using std::max;
     const T elongation = s.u_p - shortening;
     const T in_normal = 0.5 * select(elongation > T(0.0), -normal * elongation, normal * normal / k_n);
@@ -211,7 +213,7 @@ template <class T> PROVETA_INLINE T stored_energy(const Parameters& p, const T& 
 /// How near the bond is to failure, 0 to 1 (5.44): the larger of shear force over its limit and, in tension, e / u_f. 1 when failed.
 template <class T>
 PROVETA_INLINE T failure_criterion(const Parameters& p, const T& k_n, const T& area, const T& shortening, const T& normal, const T& shear,
-                           const State<T>& s) {
+                                   const State<T>& s) {
     using std::max;
     using std::min;
     const T zero = T(0.0);

@@ -59,7 +59,8 @@ PROVETA_INLINE T normal_force(const Parameters& p, const T& k_n, const T& area, 
 }
 
 /// Energy that the law takes as stored, J: F_n^2 / (2 k_n) and k_t u_t^2 / 2.
-template <class T> PROVETA_INLINE T stored_energy(const Parameters& p, const T& k_n, const T& /*shortening*/, const T& normal, const State<T>& s) {
+template <class T>
+PROVETA_INLINE T stored_energy(const Parameters& p, const T& k_n, const T& /*shortening*/, const T& normal, const State<T>& s) {
     const T u2 = s.u_t[0] * s.u_t[0] + s.u_t[1] * s.u_t[1] + s.u_t[2] * s.u_t[2];
     return 0.5 * normal * normal / k_n + 0.5 * k_n * p.shear_ratio * u2;
 }
@@ -67,7 +68,8 @@ template <class T> PROVETA_INLINE T stored_energy(const Parameters& p, const T& 
 /// One step of one bond; arguments as dempack::advance. What the law gains or loses beyond its stored energy (`stored_energy`) is booked as
 /// plastic work in compression and as damage in tension and shear, and may be negative: the law's jumps make energy.
 template <class T>
-PROVETA_INLINE dempack::Response<T> advance(const Parameters& p, const T& k_n, const T& area, const dempack::Kinematics<T>& kin, State<T>& s) {
+PROVETA_INLINE dempack::Response<T> advance(const Parameters& p, const T& k_n, const T& area, const dempack::Kinematics<T>& kin,
+                                            State<T>& s) {
     using std::max;
     using std::min;
     using std::sqrt;
@@ -133,8 +135,8 @@ PROVETA_INLINE dempack::Response<T> advance(const Parameters& p, const T& k_n, c
 
 /// As dempack::failure_criterion: the larger of shear over its limit and tension over sigma_f A.
 template <class T>
-PROVETA_INLINE T failure_criterion(const Parameters& p, const T& /*k_n*/, const T& area, const T& /*shortening*/, const T& normal, const T& shear,
-                           const State<T>& s) {
+PROVETA_INLINE T failure_criterion(const Parameters& p, const T& /*k_n*/, const T& area, const T& /*shortening*/, const T& normal,
+                                   const T& shear, const State<T>& s) {
     using std::max;
     using std::min;
     const T zero = T(0.0);

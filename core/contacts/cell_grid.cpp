@@ -58,26 +58,36 @@ std::vector<Pair> find_pairs(const VectorField& positions, const std::vector<dou
     }
     const double largest = *std::max_element(radii.begin(), radii.end());
     const CellGrid grid(positions, 2.0 * factor * largest + gap);
-    std::vector<std::vector<Pair>> found(n);
-#pragma omp parallel for schedule(dynamic, 256) if (positions.size() > 512)
-    for (std::size_t i = 0; i < n; ++i) {
-        grid.near(i, [&](std::uint32_t j) {
-            if (j <= i) {
-                return;
-            }
-            const double dx = positions.x[j] - positions.x[i];
-            const double dy = positions.y[j] - positions.y[i];
-            const double dz = positions.z[j] - positions.z[i];
-            const double reach = factor * (radii[i] + radii[j]) + gap;
-            if (dx * dx + dy * dy + dz * dz <= reach * reach) {
-                found[i].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
-            }
-        });
-        std::sort(found[i].begin(), found[i].end());
+    constexpr std::size_t block = 256;
+    std::vector<std::vector<Pair>> found((n + block - 1) / block);
+#pragma omp parallel for schedule(dynamic) if (found.size() > 2)
+    for (std::size_t part = 0; part < found.size(); ++part) {
+        auto& mine = found[part];
+        for (std::size_t i = part * block; i < std::min(n, (part + 1) * block); ++i) {
+            grid.near(i, [&](std::uint32_t j) {
+                if (j <= i) {
+                    return;
+                }
+                const double dx = positions.x[j] - positions.x[i];
+                const double dy = positions.y[j] - positions.y[i];
+                const double dz = positions.z[j] - positions.z[i];
+                const double reach = factor * (radii[i] + radii[j]) + gap;
+                if (dx * dx + dy * dy + dz * dz <= reach * reach) {
+                    mine.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+                }
+            });
+        }
+        std::sort(mine.begin(), mine.end());
+    }
+    std::size_t count = 0;
+    for (const auto& part : found) {
+        count += part.size();
     }
     std::vector<Pair> pairs;
-    for (const auto& part : found) {
+    pairs.reserve(count);
+    for (auto& part : found) {
         pairs.insert(pairs.end(), part.begin(), part.end());
+        std::vector<Pair>().swap(part);
     }
     return pairs;
 }

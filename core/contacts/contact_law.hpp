@@ -37,7 +37,7 @@ PROVETA_INLINE double lowest_force(bool tension) { return tension ? -std::numeri
 /// of the step and adds the works; `stored` gets the tangential spring's energy. Without contact the spring is lost to friction.
 template <class T, class Mask>
 PROVETA_INLINE void coulomb(const T& k_t, const T& c_t, const T& limit, const Mask& touching, double dt, const T (&slip)[3], State<T>& s,
-                    Response<T>& r) {
+                            Response<T>& r) {
     using std::max;
     using std::sqrt;
     T spring[3];

@@ -134,7 +134,8 @@ ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, std::
             std::copy_n(rolling.torque, 3, couple);
             sum.friction += rolling.power * elapsed;
         }
-        const auto force = add_pair_loads(loads.rows(), &contacts.i[k], &contacts.row_j[k], pair, contacts.share[k], r.normal, r.shear, couple);
+        const auto force =
+            add_pair_loads(loads.rows(), &contacts.i[k], &contacts.row_j[k], pair, contacts.share[k], r.normal, r.shear, couple);
         contacts.force.set(k, {force.x[0], force.x[1], force.x[2]});
         sum.stored += r.stored;
         sum.friction += r.friction_work;

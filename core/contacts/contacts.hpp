@@ -6,8 +6,8 @@
 #include "core/bonds/bonds.hpp"
 #include "core/bonds/material.hpp"
 #include "core/contacts/incidence.hpp"
-#include "core/contacts/loose.hpp"
 #include "core/contacts/loads.hpp"
+#include "core/contacts/loose.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -50,8 +50,8 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::
 /// Fills in what follows from the pairs themselves: contact distances, laws, lever shares, incidence.
 void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& contacts);
 
-/// Advances the contacts of one block of spheres by `elapsed` seconds and adds their forces and rolling resistance to the loads. dt: the step
-/// that the forces will act for, s.
+/// Advances the contacts of one block of spheres by `elapsed` seconds and adds their forces and rolling resistance to the loads. dt: the
+/// step that the forces will act for, s.
 ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, std::size_t block, double elapsed, double dt, Loads& loads);
 
 } // namespace proveta

@@ -34,7 +34,7 @@ template <class T> struct Parameters {
 /// One step of one contact; arguments as in `linear::advance`. The overlap of the last step is overlap - approach.
 template <class T>
 PROVETA_INLINE contact::Response<T> advance(const Parameters<T>& p, const T& overlap, const T& approach, double dt, const T (&slip)[3],
-                                    contact::State<T>& s) {
+                                            contact::State<T>& s) {
     using std::max;
     using std::sqrt;
     const T zero = T(0.0);

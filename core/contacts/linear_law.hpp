@@ -29,7 +29,7 @@ template <class T> struct Parameters {
 /// in the step, m; the state is brought to the end of the step. The dissipated energies are those of the trapezoidal rule.
 template <class T>
 PROVETA_INLINE contact::Response<T> advance(const Parameters<T>& p, const T& overlap, const T& approach, double dt, const T (&slip)[3],
-                                    contact::State<T>& s) {
+                                            contact::State<T>& s) {
     using std::max;
     const T lowest = T(contact::lowest_force(p.tension));
     const auto touching = overlap > lowest;

@@ -1,7 +1,7 @@
 // Forces and torques on the spheres, summed in an order that does not depend on threads.
 //
-// The spheres are cut, in their space-filling order, into blocks. All pairs of a block's spheres with later ones are one part of the work: it
-// adds the force on i to i's own row, and that on j to j's row if j belongs to the block, otherwise to a row that the block keeps for j
+// The spheres are cut, in their space-filling order, into blocks. All pairs of a block's spheres with later ones are one part of the work:
+// it adds the force on i to i's own row, and that on j to j's row if j belongs to the block, otherwise to a row that the block keeps for j
 // alone. The motion of j later adds those rows to its own, block after block.
 #pragma once
 

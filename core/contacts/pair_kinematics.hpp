@@ -25,8 +25,8 @@ template <class T> struct PairKinematics {
 /// displacement so far, m; dt in s. The old displacement turns with n by the smallest rotation and about n by the mean spin, to second
 /// order in the angles of a step, which keeps its length to fourth.
 template <class T>
-PROVETA_INLINE PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t* i, const std::int32_t* j, const T& share, const T (&u)[3],
-                                         double dt) {
+PROVETA_INLINE PairKinematics<T> pair_kinematics(const SphereView& s, const std::int32_t* i, const std::int32_t* j, const T& share,
+                                                 const T (&u)[3], double dt) {
     PairKinematics<T> k;
     T n[3];
     T dv[3];
@@ -39,63 +39,61 @@ PROVETA_INLINE PairKinematics<T> pair_kinematics(const SphereView& s, const std:
         w_i[c] = of_i(s.spin[c]);
         w_j[c] = gather<T>(s.spin[c], j);
     }
-    const T square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    const T square = dot(n, n);
     const T inverse = inverse_sqrt(square);
     k.distance = square * inverse;
-    for (auto& c : n) {
-        c = c * inverse;
+    for (int c = 0; c < 3; ++c) {
+        n[c] = n[c] * inverse;
+        k.n[c] = n[c];
     }
 
     // Relative velocity of the contact points: dv - d (share_i w_i + share_j w_j) x n.
     T w[3];
+    T spin[3];
     for (int c = 0; c < 3; ++c) {
-        w[c] = k.distance * (share * w_i[c] + (1.0 - share) * w_j[c]);
+        k.rolled[c] = w_j[c] - w_i[c];
+        w[c] = k.distance * sub_mul(w_j[c], share, k.rolled[c]);
+        spin[c] = w_i[c] + w_j[c];
+        k.rolled[c] = k.rolled[c] * dt;
     }
-    k.separation = dv[0] * n[0] + dv[1] * n[1] + dv[2] * n[2];
-    k.twist = 0.5 * dt * ((w_i[0] + w_j[0]) * n[0] + (w_i[1] + w_j[1]) * n[1] + (w_i[2] + w_j[2]) * n[2]);
-    const T out_of_plane = u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
-    const T twist = k.twist;
-    const T shrink = 1.0 - 0.5 * twist * twist;
+    k.separation = dot(dv, n);
+    const T twist = 0.5 * dt * dot(spin, n);
+    k.twist = twist;
+    const T out_of_plane = dot(u, n);
+    const T shrink = sub_mul(T(1.0), T(0.5 * twist), twist);
+    const T per_turn = inverse * dt;
     for (int c = 0; c < 3; ++c) {
-        const int p = (c + 1) % 3;
-        const int q = (c + 2) % 3;
-        const T tangential = dv[c] - k.separation * n[c];
-        k.slip[c] = (tangential - (w[p] * n[q] - w[q] * n[p])) * dt;
-        const T turn = tangential * inverse * dt; // change of n in the step
-        k.turned[c] = u[c] * shrink + twist * (n[p] * u[q] - n[q] * u[p]) - out_of_plane * (n[c] - 0.5 * turn);
-        k.n[c] = n[c];
-        k.turn[c] = turn;
-        k.rolled[c] = (w_j[c] - w_i[c]) * dt;
+        const T tangential = sub_mul(dv[c], k.separation, n[c]);
+        k.slip[c] = (tangential - cross(w, n, c)) * dt;
+        k.turn[c] = tangential * per_turn; // change of n in the step
+        const T turned = mul_add(twist, cross(n, u, c), T(u[c] * shrink));
+        k.turned[c] = sub_mul(turned, out_of_plane, sub_mul(n[c], T(0.5), k.turn[c]));
     }
     return k;
 }
 
 /// Distance of two centres by the very operations of `pair_kinematics`, so that a pair which has not moved has no overlap, to the last bit.
 PROVETA_INLINE double distance_at_rest(double x, double y, double z) {
-    const double square = x * x + y * y + z * z;
+    const double to[3] = {x, y, z};
+    const double square = dot(to, to);
     return square * inverse_sqrt(square);
 }
 
 /// Adds the pairs to their spheres' loads: normal force (compression positive) and shear force of j on i, in N. The contact point divides
-/// the line of centres in the proportion `share`, so that i gets this share of the moment d n x F as torque and j the rest: r_c x F (2.4-2.9).
-/// couple: moment of j on i besides, N m. Returns the force on i.
-template <class T> struct Vector3 {
-    T x[3];
-};
+/// the line of centres in the proportion `share`, so that i gets this share of the moment d n x F as torque and j the rest: r_c x F
+/// (2.4-2.9). couple: moment of j on i besides, N m. Returns the force on i.
+template <class T> struct Vector3 { T x[3]; };
 template <class T>
-PROVETA_INLINE Vector3<T> add_pair_loads(double* rows, const std::int32_t* i, const std::int32_t* row_j, const PairKinematics<T>& k, const T& share,
-                                 const T& normal, const T (&shear)[3], const T (&couple)[3]) {
+PROVETA_INLINE Vector3<T> add_pair_loads(double* rows, const std::int32_t* i, const std::int32_t* row_j, const PairKinematics<T>& k,
+                                         const T& share, const T& normal, const T (&shear)[3], const T (&couple)[3]) {
     T on_i[6];
     T on_j[6];
     for (int c = 0; c < 3; ++c) {
-        const int p = (c + 1) % 3;
-        const int q = (c + 2) % 3;
-        on_i[c] = shear[c] - normal * k.n[c];
+        on_i[c] = sub_mul(shear[c], normal, k.n[c]);
         on_j[c] = -on_i[c];
-        const T moment = k.distance * (k.n[p] * shear[q] - k.n[q] * shear[p]);
-        const T torque = share * moment;
-        on_i[3 + c] = torque + couple[c];
-        on_j[3 + c] = moment - torque - couple[c];
+        const T moment = k.distance * cross(k.n, shear, c);
+        on_i[3 + c] = mul_add(share, moment, couple[c]);
+        on_j[3 + c] = moment - on_i[3 + c];
     }
     add_rows(rows, i, row_j, on_i, on_j);
     return {{on_i[0], on_i[1], on_i[2]}};

@@ -31,7 +31,8 @@ template <class T> struct Response {
 };
 
 /// Torque for the normal force F_n >= 0 in N and the relative spin in rad/s; dt in s.
-template <class T> PROVETA_INLINE Response<T> torque(const T& arm, const T& normal, const T& reduced_inertia, const T (&spin)[3], double dt) {
+template <class T>
+PROVETA_INLINE Response<T> torque(const T& arm, const T& normal, const T& reduced_inertia, const T (&spin)[3], double dt) {
     using std::max;
     using std::min;
     using std::sqrt;

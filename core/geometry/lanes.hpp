@@ -11,7 +11,7 @@
 #include <experimental/simd>
 #include <type_traits>
 
-#ifdef __AVX512F__
+#if defined(__AVX512F__) || defined(__FMA__)
 #include <immintrin.h>
 #endif
 
@@ -28,8 +28,8 @@ PROVETA_INLINE bool any_of(bool condition) { return condition; }
 
 template <class Abi>
 PROVETA_INLINE std::experimental::simd<double, Abi> select(const std::experimental::simd_mask<double, Abi>& condition,
-                                                   const std::experimental::simd<double, Abi>& yes,
-                                                   const std::experimental::simd<double, Abi>& no) {
+                                                           const std::experimental::simd<double, Abi>& yes,
+                                                           const std::experimental::simd<double, Abi>& no) {
     auto out = no;
     std::experimental::where(condition, out) = yes;
     return out;
@@ -106,6 +106,54 @@ template <class T> struct NearGather {
     }
 };
 
+/// a b + c and c - a b, rounded once. Written out where speed asks for it and never left to the compiler, so that every instruction set
+/// gives the same bits.
+template <class T> PROVETA_INLINE T mul_add(const T& a, const T& b, const T& c) {
+    if constexpr (std::is_same_v<T, double>) {
+        return std::fma(a, b, c);
+    } else {
+#ifdef __AVX512F__
+        if constexpr (T::size() == 8) {
+            return T(_mm512_fmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+        }
+#endif
+#ifdef __FMA__
+        if constexpr (T::size() == 4) {
+            return T(_mm256_fmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+        }
+#endif
+        return T([&](auto k) { return std::fma(a[k], b[k], c[k]); });
+    }
+}
+template <class T> PROVETA_INLINE T sub_mul(const T& c, const T& a, const T& b) {
+    if constexpr (std::is_same_v<T, double>) {
+        return std::fma(-a, b, c);
+    } else {
+#ifdef __AVX512F__
+        if constexpr (T::size() == 8) {
+            return T(_mm512_fnmadd_pd(static_cast<__m512d>(a), static_cast<__m512d>(b), static_cast<__m512d>(c)));
+        }
+#endif
+#ifdef __FMA__
+        if constexpr (T::size() == 4) {
+            return T(_mm256_fnmadd_pd(static_cast<__m256d>(a), static_cast<__m256d>(b), static_cast<__m256d>(c)));
+        }
+#endif
+        return T([&](auto k) { return std::fma(-a[k], b[k], c[k]); });
+    }
+}
+
+template <class T> PROVETA_INLINE T dot(const T (&a)[3], const T (&b)[3]) {
+    return mul_add(a[2], b[2], mul_add(a[1], b[1], T(a[0] * b[0])));
+}
+
+/// Component c of a x b.
+template <class T> PROVETA_INLINE T cross(const T (&a)[3], const T (&b)[3], int c) {
+    const int p = (c + 1) % 3;
+    const int q = (c + 2) % 3;
+    return sub_mul(T(a[p] * b[q]), a[q], b[p]);
+}
+
 /// 1 / sqrt(x) to the last bit or two, for x between 1e-37 and 1e37: the same bits at every width, and in half the time of a square root
 /// and a division. Both of these are exact in single precision, whence two of Newton's steps lead to full precision.
 template <class T> PROVETA_INLINE T inverse_sqrt(const T& x) {
@@ -119,8 +167,8 @@ template <class T> PROVETA_INLINE T inverse_sqrt(const T& x) {
         y = stdx::static_simd_cast<T>(Single(1.0f) / root);
     }
     const T half = 0.5 * x;
-    y = y * (1.5 - half * y * y);
-    return y * (1.5 - half * y * y);
+    y = y * sub_mul(T(1.5), T(half * y), y);
+    return y * sub_mul(T(1.5), T(half * y), y);
 }
 
 /// One lane of a number.

@@ -14,9 +14,7 @@ constexpr std::size_t row_length = 8;
 namespace rows {
 
 /// A register of W numbers that may stand for any piece of an array.
-template <std::size_t W> struct Register {
-    using Type [[gnu::vector_size(W * sizeof(double)), gnu::may_alias]] = double;
-};
+template <std::size_t W> struct Register { using Type [[gnu::vector_size(W * sizeof(double)), gnu::may_alias]] = double; };
 template <std::size_t W> using RegisterOf = typename Register<W>::Type;
 
 // Exchanges blocks of `stride` numbers between a and b: of each pair of blocks a keeps its first and gets b's first, b the seconds.
@@ -44,7 +42,8 @@ template <std::size_t W, class V> PROVETA_INLINE void transpose(V (&m)[W]) { tra
 } // namespace rows
 
 /// Adds to two rows a pair: for each lane k, to row[first[k]] the six numbers a[0..5] of the lane and to row[second[k]] the six of b. Lanes
-/// one after the other, so that the order of sums is that of the pairs at every width. rows: row_length numbers each, aligned to their size.
+/// one after the other, so that the order of sums is that of the pairs at every width. rows: row_length numbers each, aligned to their
+/// size.
 template <class T>
 PROVETA_INLINE void add_rows(double* rows, const std::int32_t* first, const std::int32_t* second, const T (&a)[6], const T (&b)[6]) {
     if constexpr (std::is_same_v<T, double>) {

@@ -17,6 +17,7 @@ struct MotionRule {
 /// Moves one block of spheres: collects its loads, applies gravity and damping, advances velocities and positions by dt seconds and empties
 /// the rows of the loads for the next step. first: the velocities are those of the positions' own time, as at the start of a test, so that
 /// velocity Verlet begins with half a kick (table 2.1). `fastest` of the result is squared.
-MotionSums move_spheres(Spheres& spheres, Loads& loads, const SphereBlock& block, const MotionRule& rule, double dt, bool first, bool measure);
+MotionSums move_spheres(Spheres& spheres, Loads& loads, const SphereBlock& block, const MotionRule& rule, double dt, bool first,
+                        bool measure);
 
 } // namespace proveta

@@ -18,12 +18,8 @@ struct Strands {
         double* at = &sum[k % row_length];
         store(at, load<T>(at) + value);
     }
-    [[nodiscard]] double total() const {
-        return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
-    }
+    [[nodiscard]] double total() const { return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7])); }
 };
-
-template <class T> PROVETA_INLINE T dot(const T (&a)[3], const T (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // One vector quantity (translation or rotation) through one step; returns the work of the damping.
 template <bool viscous, class T> PROVETA_INLINE T kick(T (&velocity)[3], const T (&load)[3], const T& inertia, double alpha, double dt) {
@@ -135,8 +131,7 @@ void move(const MotionView& s, const MotionStep& step, std::size_t begin, std::s
     }
 }
 
-template <Carrier carrier>
-void move(const MotionView& s, const MotionStep& step, std::size_t begin, std::size_t end, MotionSums& out) {
+template <Carrier carrier> void move(const MotionView& s, const MotionStep& step, std::size_t begin, std::size_t end, MotionSums& out) {
     (step.damping.viscous ? move<carrier, true> : move<carrier, false>)(s, step, begin, end, out);
 }
 

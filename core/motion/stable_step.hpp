@@ -28,7 +28,7 @@ struct SphereDemand {
 /// Each spring's energy is split between its two spheres by Young's inequality, (a + b)^2 <= (1 + g_j/g_i) a^2 + (1 + g_i/g_j) b^2,
 /// which leaves one 6 x 6 eigenvalue problem (translation and rotation, lever arms included) a sphere. Any positive g gives a bound; a
 /// few sweeps choose g so that the largest eigenvalue is small. Rolling resistance takes its share of the 4, whatever the step. All
-/// stiffnesses are the undamaged ones, which no later state exceeds.
+/// stiffnesses are the undamaged ones, which no later state exceeds; failed bonds that are out of reach until the next search are left out.
 class StepBound {
   public:
     StepBound(const Spheres& spheres, const Bonds& bonds);
@@ -40,14 +40,19 @@ class StepBound {
     void hand_over(const std::vector<double>& factor);
 
     /// The bound in s, with the pairs of the contact list and the platens taken as closed. skin: how much overlaps may still grow before
-    /// the next search, m; laws that stiffen with overlap count as stiff as they can get by then.
+    /// the next search, m; laws that stiffen with overlap count as stiff as they can get by then. enough: a step in s beyond which nobody
+    /// asks; the answer is at most this, and costs little when no sphere is below it.
     [[nodiscard]] double limit(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
-                               double skin = 0.0) const;
+                               double skin = 0.0, double enough = 1e300) const;
     /// The same sphere by sphere: the bound is the lowest of their steps.
     [[nodiscard]] std::vector<SphereDemand> demands(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
                                                     const std::vector<Platen>& platens, double skin = 0.0) const;
 
   private:
+    template <class Use>
+    void each_block(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens, double skin,
+                    const Use& use) const;
+
     std::vector<double> share_;  // g for bonds, tuned to their network
     std::vector<double> single_; // g for any other pair: the sphere's own frequency
 };

@@ -1,8 +1,8 @@
 // A team of threads that works through the parts of a job, for loops of some ten microseconds.
 //
 // Every thread begins with its own share of the parts, the same in every job, so that their data stay in its cache; who is done helps the
-// others. Which thread does a part never changes what the part computes. Waiting threads spin for a few microseconds and then sleep, so that
-// a team costs a shared machine no more than the work it does.
+// others. Which thread does a part never changes what the part computes. Waiting threads spin for a few microseconds and then sleep, so
+// that a team costs a shared machine no more than the work it does.
 #pragma once
 
 #include <atomic>

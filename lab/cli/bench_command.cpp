@@ -48,8 +48,8 @@ int bench(const Arguments& a) {
         const auto start = std::chrono::steady_clock::now();
         Bench specimen = set_up(deck, obtain_specimen(deck.specimen, deck.folder, deck.source));
         const double made = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        fmt::print("# {} spheres, {} bonds, ready after {:.1f} s, peak memory so far {:.2f} GB\n", specimen.model->spheres.size(),
-                   specimen.model->bonds.size(), made, 1e-9 * peak_memory());
+        fmt::print("# {} spheres, {} bonds, interaction range {:.6f}, ready after {:.1f} s, peak memory so far {:.2f} GB\n",
+                   specimen.model->spheres.size(), specimen.model->bonds.size(), 1.0 + specimen.beta, made, 1e-9 * peak_memory());
         std::fflush(stdout);
         for (const auto& f : benchmark::measure(specimen, a.plan, [](const benchmark::Figures& figures) {
                  fmt::print("{}\n", benchmark::as_line(figures));

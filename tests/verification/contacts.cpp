@@ -247,7 +247,9 @@ TEST_CASE("heap: the step bound counts loose contacts, thread counts change no b
         Spheres s = two_spheres(0.01);
         std::vector<double> weight;
         Bonds none = make_bonds(s, {h}, {}, {0, 0}, weight);
-        const Model pair(s, {free_of_dashpots}, none, weight, {}, Numerics{});
+        Numerics undamped;
+        undamped.damping = {0.0, 0.0};
+        const Model pair(s, {free_of_dashpots}, none, weight, {}, undamped);
         const double root = std::sqrt(0.005 * 0.001); // R_eq times the skin, a tenth of the radius
         const double k_n = 2.0 * 1e7 / (2.0 * 0.96) * root;
         const double k_t = 8.0 * (1e7 / 2.4) / (2.0 * 1.8) * root;

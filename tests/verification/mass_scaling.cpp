@@ -14,11 +14,11 @@ namespace {
 double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
 // A specimen without platens or contacts, at rest, to be shaken at a given step.
-Model bare(const Bench& bench, double dt, double scaling) {
+Model bare(const Bench& bench, double dt, double scaling, double alpha = 0.0) {
     Numerics numerics;
     numerics.time_step = dt;
     numerics.refuse_unstable = false;
-    numerics.damping = {0.0, 0.0};
+    numerics.damping = {alpha, alpha};
     numerics.mass_scaling = scaling;
     Spheres s = bench.model->spheres;
     if (!bench.model->mass_scaling().mass.empty()) {
@@ -48,7 +48,8 @@ double growth(Model model, int steps) {
 } // namespace
 
 TEST_CASE("mass-scaling: the added mass stays within its share and the stable step grows") {
-    const Deck plain = small_deck(1500);
+    const std::string off = R"({"numerics": {"mass_scaling": 0}})";
+    const Deck plain = small_deck(1500, off);
     const Specimen specimen = make_specimen(plain.specimen);
     const Bench without = set_up(plain, specimen);
     CHECK(without.model->mass_scaling().spheres == 0);
@@ -85,7 +86,7 @@ TEST_CASE("mass-scaling: the bound stays below the power iteration's limit, and 
     const Model& m = *bench.model;
     const double scaled = 2.0 / std::sqrt(largest_eigenvalue(m.spheres, m.bonds, 2000));
     CHECK(m.stable_step() <= scaled * (1 + 1e-6));
-    const Bench without = set_up(small_deck(600), specimen);
+    const Bench without = set_up(small_deck(600, R"({"numerics": {"mass_scaling": 0}})"), specimen);
     const double critical = 2.0 / std::sqrt(largest_eigenvalue(without.model->spheres, without.model->bonds, 2000));
     const double dt = 1.03 * critical;
     REQUIRE(dt < m.stable_step());
@@ -93,8 +94,22 @@ TEST_CASE("mass-scaling: the bound stays below the power iteration's limit, and 
     CHECK(growth(bare(without, dt, 0.1), 4000) < 20.0);
 }
 
+TEST_CASE("stable step: strong non-viscous damping lowers the bound, below which motion dies out and above which it does not") {
+    const Deck deck = small_deck(600, R"({"material": {"sigma_f": "100 GPa", "tau_f": "100 GPa"}, "numerics": {"mass_scaling": 0}})");
+    const Specimen specimen = make_specimen(deck.specimen);
+    const Bench bench = set_up(deck, specimen);
+    const double bound = bare(bench, 1e-9, 0.0).stable_step(); // of the springs alone
+    for (const double alpha : {0.2, 0.5, 0.8}) {
+        const double stable = bound / std::sqrt(1.0 + alpha);
+        CHECK(bare(bench, 0.99 * stable, 0.0, alpha).stable_step() == Approx(stable).epsilon(1e-3));
+        CHECK(growth(bare(bench, 0.99 * stable, 0.0, alpha), 4000) < 1e-3);
+        CHECK(growth(bare(bench, 1.03 * stable, 0.0, alpha), 4000) > 0.1);
+    }
+}
+
 TEST_CASE("mass-scaling: weight stays that of the true mass") {
-    const Bench bench = set_up(small_deck(300), make_specimen(small_deck(300).specimen));
+    const Deck deck = small_deck(300, R"({"numerics": {"mass_scaling": 0}})");
+    const Bench bench = set_up(deck, make_specimen(deck.specimen));
     Numerics numerics;
     numerics.mass_scaling = 0.2;
     numerics.gravity = {0, 0, -9.81};
