@@ -67,6 +67,24 @@ class Running(Case):
         self.assertNotIn("https://", page)
         self.assertTrue(list((out / "fields").glob("spheres_*.vtp")))
 
+    def test_bench_prints_a_line_a_measurement_and_writes_the_same_as_json(self):
+        done = self.run_program("bench", "--sizes", "500", "--threads", "1,2", "--repeats", "1", "--seconds", "0.02", "--json", "bench.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = [line.split() for line in done.stdout.splitlines() if line.startswith("threads ")]
+        self.assertEqual([line[1] for line in lines], ["1", "2", "1", "2"])
+        found = json.loads((self.folder / "bench.json").read_text())["measurements"]
+        self.assertEqual([m["state"] for m in found], ["elastic", "elastic", "past_peak", "past_peak"])
+        for line, measured in zip(lines, found):
+            self.assertAlmostEqual(float(line[line.index("ns_per_bond_step") + 1]), measured["ns_per_bond_step"], delta=0.006)
+            self.assertGreater(measured["triad_bytes_per_s"], 0)
+            self.assertGreater(measured["ns_forces"], 0)
+        self.assertEqual(found[0]["failed_bonds"], 0)
+        self.assertGreater(found[2]["failed_bonds"], 0)
+        wrong = self.run_program("bench", "--sizes", "5")
+        self.assertEqual(wrong.returncode, 2)
+        missing = self.run_program("bench", "--specimen", "nowhere.h5")
+        self.assertEqual(missing.returncode, 2)
+
     def test_a_run_at_the_rate_that_suits_it_says_what_it_chose(self):
         loading = {"rate": "auto", "rate_check": "half_rate", "stop": {"axial_strain": 0.004}}
         deck = self.deck(loading=loading, numerics={"mass_scaling": 0.02})
