@@ -43,7 +43,8 @@ std::vector<Mat3> sphere_stresses(const Spheres& s, const Bonds& bonds, const Co
     for (const auto& platen : platens) {
         for (std::size_t k = 0; k < platen.sphere.size(); ++k) {
             const auto i = static_cast<std::size_t>(platen.sphere[k]);
-            const Vec3 arm(0.0, 0.0, platen.position - s.position.z[i]);
+            const auto foot = platen.foot(s.position.at(i));
+            const Vec3 arm = -foot.distance * foot.normal;
             sum[i] -= arm * platen.force.at(k).transpose();
         }
     }

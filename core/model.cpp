@@ -181,12 +181,13 @@ void Model::forces(double elapsed, bool measure) {
     for (std::size_t p = 0; p < platens.size(); ++p) {
         Platen& platen = platens[p];
         platen.reaction = at_platens[p].reaction;
+        platen.thrust = at_platens[p].thrust;
         platen.touching = at_platens[p].touching;
         ledger_.friction += at_platens[p].friction;
         ledger_.dashpots += at_platens[p].dashpot;
         stored += at_platens[p].stored;
         // The platen pushes back with -reaction while it moves by velocity dt.
-        ledger_.platens -= 0.5 * (platen.reaction.z() + reactions_[p].z()) * platen.velocity * elapsed;
+        ledger_.platens -= 0.5 * platen.face.axis.dot(platen.reaction + reactions_[p]) * platen.velocity * elapsed;
         reactions_[p] = platen.reaction;
     }
     if (averaged_) {

@@ -181,8 +181,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit(name + "velocity", platen.velocity);
         visit(name + "searched_at", platens_at_[p]);
         visit(name + "sphere", platen.sphere);
-        visit(name + "slip_x", platen.slip_x);
-        visit(name + "slip_y", platen.slip_y);
+        field(name + "slip", platen.slip);
         field(name + "viscous", platen.viscous);
         visit(name + "reaction_x", reactions_[p].x());
         visit(name + "reaction_y", reactions_[p].y());

@@ -155,11 +155,16 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     bench.partition = partition(bench.specimen.shape, spheres, bonds);
     bench.wave_speed = std::sqrt(materials.front().normal_factor * materials.front().young_modulus / materials.front().density);
 
-    auto platens = deck.protocol->platens(spheres, bench.specimen.shape);
-    for (const auto& p : platens) {
-        if (std::none_of(p.capped.begin(), p.capped.end(), [](double d) { return d > 0.0; })) {
-            fail("/specimen", fmt::format("no sphere at the end z = {:.4g} m", p.position), "a specimen whose ends meet the platens",
-                 "import it with its true height");
+    try {
+        bench.press = deck.protocol->press(spheres, bench.specimen.shape);
+    } catch (const std::invalid_argument& e) {
+        fail("/specimen", e.what(), "a specimen that fits this test's machine", "ask for more spheres");
+    }
+    for (std::size_t p = 0; p < 2; ++p) {
+        const auto& platen = bench.press.platens[p];
+        if (std::none_of(platen.capped.begin(), platen.capped.end(), [](double d) { return d > 0.0; })) {
+            fail("/specimen", fmt::format("no sphere at the platen at {:.4g} m", platen.position),
+                 "a specimen whose surface meets the platens", "import it with its true size");
         }
     }
     Numerics numerics;
@@ -176,7 +181,8 @@ Bench set_up(const Deck& deck, Specimen specimen) {
                                                                  : Scheme::velocity_verlet;
     try {
         bench.model = std::make_unique<Model>(std::move(spheres), std::move(materials), std::move(bonds), std::move(weight),
-                                              std::move(platens), numerics);
+                                              std::move(bench.press.platens), numerics);
+        bench.model->pressures = std::move(bench.press.pressures);
     } catch (const UnstableStep& e) {
         fail("/numerics/time_step", input::format_quantity(e.asked, input::Unit::time),
              fmt::format("at most the stable step of {}", input::format_quantity(e.stable, input::Unit::time)),

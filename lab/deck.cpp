@@ -97,6 +97,7 @@ Deck read_deck(const Json& given, const std::string& file) {
     if (!deck.protocol) {
         deck.protocol = make_protocol(test_names().front()); // to read the rest; the name itself is complained about below
     }
+    deck.protocol->suggest(deck.specimen);
     // The cards come first: the deck's other keys override them.
     if (json.is_object()) {
         preload(json.contains("material") ? json["material"] : Json::object(), deck.material, deck.folder, file, "/material", problems);
@@ -125,7 +126,7 @@ Deck read_deck(const Json& given, const std::string& file) {
         }
     }
     if (problems.empty()) {
-        deck.protocol->check(deck.specimen, file, "/loading", problems);
+        deck.protocol->check(deck, problems);
     }
     if (!problems.empty()) {
         throw input::InputError(problems);
@@ -194,6 +195,7 @@ Json deck_schema() {
         Deck deck;
         deck.test = name;
         deck.protocol = make_protocol(name);
+        deck.protocol->suggest(deck.specimen);
         input::Problems ignored;
         preload(Json::object(), deck.material, "", "", "", ignored);
         input::SchemaWriter writer;

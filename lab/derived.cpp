@@ -40,17 +40,18 @@ std::optional<std::size_t> first_reaching(const std::vector<double>& y, double l
     return std::nullopt;
 }
 
-std::optional<double> slope_between(const std::vector<double>& x, const std::vector<double>& y, double from_share, double to_share) {
+std::optional<Line> line_between(const std::vector<double>& x, const std::vector<double>& y, double from_share, double to_share) {
     if (y.empty()) {
         return std::nullopt;
     }
     const std::size_t peak = peak_index(y);
     const auto first = first_reaching(y, from_share * y[peak], peak);
     const auto last = first_reaching(y, to_share * y[peak], peak);
-    if (!first || !last) {
-        return std::nullopt;
-    }
-    const auto line = fit(x, y, *first, *last);
+    return first && last ? fit(x, y, *first, *last) : std::nullopt;
+}
+
+std::optional<double> slope_between(const std::vector<double>& x, const std::vector<double>& y, double from_share, double to_share) {
+    const auto line = line_between(x, y, from_share, to_share);
     return line ? std::optional(line->slope) : std::nullopt;
 }
 
@@ -66,6 +67,50 @@ std::optional<double> x_at_share(const std::vector<double>& x, const std::vector
     }
     const double t = (level - y[*k - 1]) / (y[*k] - y[*k - 1]);
     return x[*k - 1] + t * (x[*k] - x[*k - 1]);
+}
+
+std::optional<double> y_at(const std::vector<double>& x, const std::vector<double>& y, double at) {
+    const auto k = x.empty() ? std::nullopt : first_reaching(x, at, x.size() - 1);
+    if (!k) {
+        return std::nullopt;
+    }
+    if (*k == 0) {
+        return y.front();
+    }
+    return y[*k - 1] + (y[*k] - y[*k - 1]) * (at - x[*k - 1]) / (x[*k] - x[*k - 1]);
+}
+
+std::optional<double> offset_yield(const std::vector<double>& x, const std::vector<double>& y, const Line& line, double offset) {
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        if (y[k] > 0.0 && y[k] < line.slope * (x[k] - offset) + line.offset) {
+            return y[k];
+        }
+    }
+    return std::nullopt;
+}
+
+Loading loading_of(const report::Table& curve, double sense) {
+    Loading out;
+    const std::size_t phase = curve.column("phase");
+    std::optional<std::size_t> before; // last row of what prepared the loading
+    const auto add = [&](std::vector<double>& to, const char* name, std::size_t row, bool from_start) {
+        const std::size_t c = curve.column(name);
+        to.push_back(sense * (curve.rows[row][c] - (from_start && before ? curve.rows[*before][c] : 0.0)));
+    };
+    for (std::size_t k = 0; k < curve.rows.size(); ++k) {
+        if (curve.rows[k][phase] == phase_preparing) {
+            before = k;
+        } else if (curve.rows[k][phase] == phase_loading) {
+            out.row.push_back(k);
+            add(out.strain, "axial_strain", k, true);
+            add(out.gauge, "gauge_axial_strain", k, true);
+            add(out.girth, "circumferential_strain", k, true);
+            add(out.volume, "volumetric_strain", k, true);
+            add(out.stress, "axial_stress", k, false);
+            add(out.deviator, "deviatoric_stress", k, false);
+        }
+    }
+    return out;
 }
 
 } // namespace proveta

@@ -85,23 +85,57 @@ report::Geometry bond_fields(const Bench& bench) {
     return g;
 }
 
-report::Geometry platen_fields(const Bench& bench) {
-    const Shape& shape = bench.specimen.shape;
-    report::Geometry g;
+namespace {
+
+// Outline of a face: flat and across z a disc, otherwise a strip of rectangles along z, as wide as the face or a little wider than the specimen.
+std::vector<std::vector<Vec3>> outline(const Platen& p, const Shape& shape) {
+    const double size = 0.6 * (shape.kind == ShapeKind::prism ? std::hypot(shape.width, shape.depth) : shape.lateral_size());
     constexpr int corners = 48;
-    std::vector<double> force;
-    for (const auto& p : bench.model->platens) {
-        std::vector<std::int64_t> cell;
+    std::vector<std::vector<Vec3>> cells;
+    if (p.face.axis.z() != 0.0) {
+        cells.emplace_back();
         for (int k = 0; k < corners; ++k) {
             const double angle = 2.0 * std::numbers::pi * k / corners;
-            const double reach = 0.6 * (shape.kind == ShapeKind::prism ? std::hypot(shape.width, shape.depth) : shape.lateral_size());
-            cell.push_back(static_cast<std::int64_t>(g.points.size()));
-            g.points.push_back({reach * std::cos(angle), reach * std::sin(angle), p.position});
+            cells.back().emplace_back(size * std::cos(angle), size * std::sin(angle), p.position);
         }
-        g.cells.push_back(cell);
-        force.push_back(p.reaction.norm());
+        return cells;
     }
-    g.cell_arrays = {{"force", 1, force}};
+    const Vec3 across = Vec3::UnitZ().cross(p.face.axis);
+    const double half = std::min(p.face.half_width, size);
+    const bool ring = p.face.curvature > 0.0 && p.face.half_width == Face::boundless && p.position * p.face.inward * p.face.curvature < -0.999;
+    const auto at = [&](int k) {
+        const double along = 2.0 * k / corners - 1.0;
+        if (p.face.curvature == 0.0) {
+            return Vec3(p.position * p.face.axis + along * half * across);
+        }
+        const double radius = 1.0 / p.face.curvature;
+        const double angle = ring ? std::numbers::pi * along : std::asin(std::min(1.0, half / radius)) * along;
+        const Vec3 centre = (p.position + p.face.inward * radius) * p.face.axis;
+        return Vec3(centre - p.face.inward * radius * std::cos(angle) * p.face.axis + radius * std::sin(angle) * across);
+    };
+    for (int k = 0; k < corners; ++k) {
+        const Vec3 up(0.0, 0.0, shape.height);
+        cells.push_back({at(k), at(k + 1), at(k + 1) + up, at(k) + up});
+    }
+    return cells;
+}
+
+} // namespace
+
+report::Geometry platen_fields(const Bench& bench) {
+    report::Geometry g;
+    std::vector<double> thrust;
+    for (const auto& p : bench.model->platens) {
+        for (const auto& cell : outline(p, bench.specimen.shape)) {
+            g.cells.emplace_back();
+            for (const Vec3& corner : cell) {
+                g.cells.back().push_back(static_cast<std::int64_t>(g.points.size()));
+                g.points.push_back(corner);
+            }
+            thrust.push_back(p.thrust);
+        }
+    }
+    g.cell_arrays = {{"force", 1, thrust}};
     return g;
 }
 
@@ -116,19 +150,36 @@ double quantile(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+// The plane of a picture: along the axis of a specimen that is pressed there; across the axis, the load upright, of one that is split.
+struct Plane {
+    int right, up, out;    // components
+    double middle = 0.0;   // of the third, m
+    double raise = 0.0;    // of the picture's base, m
+};
+
+Plane plane_of(const Bench& bench) {
+    const Shape& shape = bench.specimen.shape;
+    return bench.press.bands ? Plane{0, 2, 1} : Plane{1, 0, 2, 0.5 * shape.height, 0.5 * shape.diameter};
+}
+
 // A crack lies across its bond: a stroke perpendicular to it in the plane of the picture, as long as the bond's contact area is wide.
-report::PictureLine stroke(const Model& m, std::size_t b) {
+report::PictureLine stroke(const Model& m, const Plane& plane, std::size_t b) {
     const auto i = static_cast<std::size_t>(m.bonds.i[b]);
     const auto j = static_cast<std::size_t>(m.bonds.j[b]);
     const Vec3 a = m.spheres.position.at(i);
     const Vec3 to = m.spheres.position.at(j) - a;
     const Vec3 middle = a + 0.5 * to;
-    const double flat = std::max(std::hypot(to.x(), to.z()), 1e-300);
+    const double across = to[plane.right];
+    const double up = to[plane.up];
+    const double flat = std::max(std::hypot(across, up), 1e-300);
     const double wide = m.spheres.planar ? 0.5 * m.bonds.area[b] : std::sqrt(m.bonds.area[b] / std::numbers::pi);
     const double reach = wide * flat / to.norm();
-    const Vec3 half(-reach * to.z() / flat, 0.0, reach * to.x() / flat);
+    const double dx = -reach * up / flat;
+    const double dz = reach * across / flat;
+    const double x = middle[plane.right];
+    const double z = middle[plane.up] + plane.raise;
     const double parted = (to - (m.spheres.start.at(j) - m.spheres.start.at(i))).norm();
-    return {middle.x() - half.x(), middle.z() - half.z(), middle.x() + half.x(), middle.z() + half.z(), m.bonds.mode[b], parted};
+    return {x - dx, z - dz, x + dx, z + dz, m.bonds.mode[b], parted};
 }
 
 } // namespace
@@ -136,25 +187,26 @@ report::PictureLine stroke(const Model& m, std::size_t b) {
 report::Picture slice(const Bench& bench, const std::string& title) {
     const Model& m = *bench.model;
     const Shape& shape = bench.specimen.shape;
+    const Plane plane = plane_of(bench);
     report::Picture p;
     p.title = title;
     p.width = shape.kind == ShapeKind::cylinder ? shape.diameter : shape.width;
-    p.height = shape.height;
+    p.height = bench.press.bands ? shape.height : shape.diameter;
     const double half = bench.statistics.mean_radius;
     std::vector<double> sideways;
     for (std::size_t k = 0; k < m.spheres.size(); ++k) {
-        if (std::fabs(m.spheres.start.y[k]) < half) {
+        if (std::fabs(m.spheres.start.at(k)[plane.out] - plane.middle) < half) {
             const Vec3 at = m.spheres.position.at(k);
             const Vec3 moved = at - m.spheres.start.at(k);
-            sideways.push_back(std::hypot(moved.x(), moved.y()));
-            p.dots.push_back({at.x(), at.z(), m.spheres.radius[k], sideways.back()});
+            sideways.push_back(std::hypot(moved[plane.right], moved[plane.out]));
+            p.dots.push_back({at[plane.right], at[plane.up] + plane.raise, m.spheres.radius[k], sideways.back()});
         }
     }
     std::vector<double> parted;
     for (std::size_t b = 0; b < m.bonds.size(); ++b) {
-        const auto y = [&](std::int32_t k) { return m.spheres.start.y[static_cast<std::size_t>(k)]; };
-        if (m.bonds.mode[b] != 0 && std::fabs(0.5 * (y(m.bonds.i[b]) + y(m.bonds.j[b]))) < half) {
-            p.lines.push_back(stroke(m, b));
+        const auto out = [&](std::int32_t k) { return m.spheres.start.at(static_cast<std::size_t>(k))[plane.out]; };
+        if (m.bonds.mode[b] != 0 && std::fabs(0.5 * (out(m.bonds.i[b]) + out(m.bonds.j[b])) - plane.middle) < half) {
+            p.lines.push_back(stroke(m, plane, b));
             parted.push_back(p.lines.back().weight);
         }
     }
@@ -166,7 +218,9 @@ report::Picture slice(const Bench& bench, const std::string& title) {
     for (auto& line : p.lines) {
         line.weight /= std::max(widest, 1e-300);
     }
-    p.caption = m.spheres.planar ? "The plate." : "Slice through the axis, two mean radii thick.";
+    p.caption = m.spheres.planar      ? "The plate."
+                : bench.press.bands ? "Slice through the axis, two mean radii thick."
+                                    : "Slice at mid-thickness, two mean radii thick, loaded from above and below.";
     if (farthest > 0.0) {
         p.caption += fmt::format(" Shade: sideways displacement, up to {:.3g} mm.", 1e3 * farthest);
     }

@@ -1,5 +1,6 @@
 #include "lab/instruments.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +12,13 @@ Instruments::Instruments(const Bench& bench) {
     const Shape& shape = bench.specimen.shape;
     const Spheres& s = bench.model->spheres;
     height_ = shape.height;
-    section_ = shape.section();
     off_ = detached_spheres(*bench.model);
-    inner_ = shape.inner(0.6, 0.6);
+    inner_ = bench.press.inner;
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        if (inner_.contains(s.start.at(k))) {
+            inside_.push_back(k);
+        }
+    }
     // Middle gauge: as long as the specimen is wide, at most half its height, between two bands of three mean radii.
     const double length = std::min(shape.lateral_size(), 0.5 * shape.height);
     const double half_band = 1.5 * bench.statistics.mean_radius;
@@ -51,8 +56,39 @@ double Instruments::mean_rise(const Model& model, const Band& band) const {
     return sum / std::max(1.0, count);
 }
 
-double Instruments::nominal_strain(const Model& model) const {
-    return 1.0 - (model.platens[1].position - model.platens[0].position) / height_;
+double Instruments::girth_strain(const Model& m) const {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t k = 0; k < girth_.size(); ++k) {
+        if (off_[girth_[k]] == 0) {
+            sum += 1.0 - std::hypot(m.spheres.position.x[girth_[k]], m.spheres.position.y[girth_[k]]) / girth_radius_[k];
+            count += 1.0;
+        }
+    }
+    return sum / std::max(1.0, count);
+}
+
+// Least squares of u = a + G x over the spheres of the region.
+Mat3 Instruments::mean_strain(const Model& m) const {
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+    for (const auto k : inside_) {
+        if (off_[k] != 0) {
+            continue;
+        }
+        const Vec3 p = m.spheres.start.at(k);
+        const Eigen::Vector4d row(1.0, p.x(), p.y(), p.z() - 0.5 * height_);
+        normal += row * row.transpose();
+        right += row * (m.spheres.position.at(k) - p).transpose();
+    }
+    if (m.spheres.planar) {
+        normal(2, 2) = 1.0; // all y are 0
+    }
+    if (inside_.size() < 4) {
+        return Mat3::Zero();
+    }
+    const Mat3 slope = normal.ldlt().solve(right).bottomRows<3>();
+    return -0.5 * (slope + slope.transpose());
 }
 
 Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) const {
@@ -83,19 +119,25 @@ Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) c
 report::Table Instruments::empty_curve() const {
     report::Table t;
     t.notes = {"Compression is positive in stress and strain; lateral strain is positive when the specimen gets thinner.",
-               "Stress is force over the nominal section before the test."};
+               "Stress is force over the nominal area before the test."};
     t.columns = {{"time", "s", "time since the start of loading"},
-                 {"axial_strain", "", "closing of the platens over the height"},
-                 {"axial_stress", "Pa", "total axial stress: mean of both platens' force over the nominal section"},
-                 {"deviatoric_stress", "Pa", "axial stress minus confining pressure"},
-                 {"gauge_axial_strain", "", "shortening of the middle gauge length"},
-                 {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin"},
+                 {"stage", "", "number of the stage, from 0"},
+                 {"phase", "", "0 preparing the loading, 1 loading, 2 unloading or reloading"},
+                 {"axial_strain", "", "closing of the platens over their distance at the start"},
+                 {"axial_stress", "Pa", "total axial stress: mean of both platens' force over the nominal area"},
+                 {"deviatoric_stress", "Pa", "axial minus lateral stress"},
+                 {"lateral_stress", "Pa", "confining pressure, or mean of what the side presses on a ring"},
+                 {"gauge_axial_strain", "", "shortening of the middle gauge length along the loading"},
+                 {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin, or of the gauge across the loading"},
                  {"volumetric_strain", "", "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
-                 {"force_bottom", "N", "force on the lower platen"},
-                 {"force_top", "N", "force on the upper platen"},
-                 {"inner_stress_xx", "Pa", "Love-Weber stress averaged over the inner 60 % of diameter and height"},
+                 {"force_bottom", "N", "force on the first (lower) platen"},
+                 {"force_top", "N", "force on the second (upper) platen"},
+                 {"inner_strain_xx", "", "mean strain of the inner region, from the displacements of its spheres"},
+                 {"inner_strain_yy", "", "the same"},
+                 {"inner_strain_zz", "", "the same"},
+                 {"inner_stress_xx", "Pa", "Love-Weber stress averaged over the inner region"},
                  {"inner_stress_yy", "Pa", "the same"},
-                 {"inner_stress_zz", "Pa", "the same, axial"},
+                 {"inner_stress_zz", "Pa", "the same"},
                  {"inner_stress_xy", "Pa", "the same"},
                  {"inner_stress_yz", "Pa", "the same"},
                  {"inner_stress_zx", "Pa", "the same"},
@@ -103,7 +145,7 @@ report::Table Instruments::empty_curve() const {
                  {"broken_in_tension", "", "of these in tension"},
                  {"broken_in_shear", "", "of these in shear"},
                  {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"},
-                 {"rate", "m/s", "closing speed of the platens"}};
+                 {"rate", "m/s", "closing speed of the platens, negative when they part"}};
     return t;
 }
 
@@ -111,8 +153,9 @@ report::Table Instruments::empty_energy() const {
     report::Table t;
     t.notes = {"Energy ledger: every term is accumulated from its own mechanism, none by difference."};
     t.columns = {{"time", "s", "time since the start of loading"},
-                 {"axial_strain", "", "closing of the platens over the height"},
+                 {"axial_strain", "", "closing of the platens over their distance at the start"},
                  {"platens", "J", "work of the platens on the specimen"},
+                 {"pressure", "J", "work of the pressure on its side"},
                  {"elastic", "J", "stored in bonds and contacts"},
                  {"kinetic", "J", "of translation and rotation"},
                  {"damage", "J", "dissipated by damage and failure of bonds"},
@@ -124,36 +167,45 @@ report::Table Instruments::empty_energy() const {
     return t;
 }
 
-void Instruments::sample(const Bench& bench, report::Table& curve, report::Table& energy) {
+void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& curve, report::Table& energy) {
     const Model& m = *bench.model;
+    const Press& press = bench.press;
     if (m.broken() != off_at_) {
         off_ = detached_spheres(m);
         off_at_ = m.broken();
     }
-    const double bottom = -m.platens[0].reaction.z();
-    const double top = m.platens[1].reaction.z();
-    const double strain = nominal_strain(m);
-    const double gauge = (mean_rise(m, lower_) - mean_rise(m, upper_)) / (upper_.height - lower_.height);
-    double girth = 0.0;
-    double on_girth = 0.0;
-    for (std::size_t k = 0; k < girth_.size(); ++k) {
-        if (off_[girth_[k]] == 0) {
-            girth += 1.0 - std::hypot(m.spheres.position.x[girth_[k]], m.spheres.position.y[girth_[k]]) / girth_radius_[k];
-            on_girth += 1.0;
-        }
+    const double bottom = m.platens[0].load();
+    const double top = m.platens[1].load();
+    const double strain = 1.0 - (m.platens[1].position - m.platens[0].position) / press.length;
+    const Mat3 stretched = mean_strain(m);
+    const Vec3 along = m.platens[0].face.axis;
+    const Vec3 across = Vec3::UnitZ().cross(along);
+    const double gauge = press.bands ? (mean_rise(m, lower_) - mean_rise(m, upper_)) / (upper_.height - lower_.height)
+                                     : along.dot(stretched * along);
+    const double girth = press.bands ? girth_strain(m) : across.dot(stretched * across);
+    const double volume = press.bands ? gauge + (m.spheres.planar ? 1.0 : 2.0) * girth : stretched.trace();
+    double held = 0.0;
+    for (std::size_t p = 2; p < m.platens.size(); ++p) {
+        held += m.platens[p].thrust;
     }
-    girth /= std::max(1.0, on_girth);
+    const double lateral = press.side_area > 0.0 ? held / press.side_area : mark.pressure;
     const Mat3 inner = mean_stress(m, inner_);
-    const double stress = 0.5 * (bottom + top) / section_;
+    const double stress = 0.5 * (bottom + top) / press.area;
     curve.rows.push_back({m.time(),
+                          mark.stage,
+                          mark.phase,
                           strain,
                           stress,
-                          stress,
+                          stress - lateral,
+                          lateral,
                           gauge,
                           girth,
-                          gauge + (m.spheres.planar ? 1.0 : 2.0) * girth,
+                          volume,
                           bottom,
                           top,
+                          stretched(0, 0),
+                          stretched(1, 1),
+                          stretched(2, 2),
                           inner(0, 0),
                           inner(1, 1),
                           inner(2, 2),
@@ -166,8 +218,8 @@ void Instruments::sample(const Bench& bench, report::Table& curve, report::Table
                           m.measures().unbalanced_ratio,
                           m.platens[0].velocity - m.platens[1].velocity});
     const Ledger& l = m.ledger();
-    energy.rows.push_back(
-        {m.time(), strain, l.platens, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots, l.background, l.residual()});
+    energy.rows.push_back({m.time(), strain, l.platens, l.pressure, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots,
+                           l.background, l.residual()});
 }
 
 } // namespace proveta

@@ -18,14 +18,24 @@ class Instruments {
     [[nodiscard]] report::Table empty_curve() const;
     [[nodiscard]] report::Table empty_energy() const;
 
-    /// Adds a row to each table. The model's last step must have measured.
-    void sample(const Bench& bench, report::Table& curve, report::Table& energy);
+    /// What the run knows of where it stands.
+    struct Mark {
+        double stage = 0.0;
+        double phase = 0.0;
+        double pressure = 0.0; ///< on the side, Pa
+    };
 
-    /// Nominal axial strain from the platens' travel; cheap.
-    [[nodiscard]] double nominal_strain(const Model& model) const;
+    /// Adds a row to each table. The model's last step must have measured.
+    void sample(const Bench& bench, const Mark& mark, report::Table& curve, report::Table& energy);
+
+    /// Strain of the girth at mid-height from the lateral skin, positive when the specimen gets thinner; cheap.
+    [[nodiscard]] double girth_strain(const Model& model) const;
 
     /// Counts a failed bond.
     void count(FailureMode mode) { ++(mode == FailureMode::tension ? broken_tension_ : broken_shear_); }
+
+    /// Mean small strain of an inner region, compression positive: the symmetric slope of the displacements of its spheres.
+    [[nodiscard]] Mat3 mean_strain(const Model& model) const;
 
     /// Love-Weber stress averaged over an inner region, Pa: (1/V) sum of force times branch, each branch with its fraction inside.
     [[nodiscard]] Mat3 mean_stress(const Model& model, const Shape::Region& region) const;
@@ -38,11 +48,11 @@ class Instruments {
     [[nodiscard]] double mean_rise(const Model& model, const Band& band) const;
 
     double height_ = 0.0;
-    double section_ = 0.0;
     Band lower_, upper_;               // ends of the middle gauge
     std::vector<std::size_t> girth_;   // lateral skin at mid-height
     std::vector<double> girth_radius_; // their distance from the axis at the start, m
     Shape::Region inner_;
+    std::vector<std::size_t> inside_; // spheres of the inner region
     std::vector<std::uint8_t> off_; // detached spheres
     std::size_t off_at_ = 0;        // number of failed bonds that it was found for
     std::size_t broken_tension_ = 0;

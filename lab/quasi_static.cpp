@@ -21,26 +21,43 @@ std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share
 
 std::string against(double found, double allowed) { return fmt::format("{} (allowed {})", percent(found), percent(allowed)); }
 
+// Rows of the loading from a fifth of what it added to the stress up to the peak.
+std::vector<std::size_t> rows_to_peak(const report::Table& curve, double sense) {
+    Loading l = loading_of(curve, sense);
+    if (l.stress.empty()) {
+        return {};
+    }
+    const double start = l.row.front() > 0 ? sense * curve.rows[l.row.front() - 1][curve.column("axial_stress")] : 0.0;
+    for (double& s : l.stress) {
+        s -= start;
+    }
+    const std::size_t peak = peak_index(l.stress);
+    const auto first = first_reaching(l.stress, 0.2 * l.stress[peak], peak);
+    if (!first || *first == peak) {
+        return {};
+    }
+    return {l.row.begin() + static_cast<std::ptrdiff_t>(*first), l.row.begin() + static_cast<std::ptrdiff_t>(peak) + 1};
+}
+
 } // namespace
 
-report::Badge quasi_static_verdict(const report::Table& curve, const report::Table& energy, const std::optional<RateCheck>& check) {
+report::Badge quasi_static_verdict(const report::Table& curve, double sense, const report::Table& energy,
+                                   const std::optional<RateCheck>& check) {
     report::Badge badge{"Quasi-static loading", false, "", {}};
-    const auto stress = curve.values("axial_stress");
     const auto bottom = curve.values("force_bottom");
     const auto top = curve.values("force_top");
     const auto ratio = curve.values("unbalanced_ratio");
     const auto kinetic = energy.values("kinetic");
     const auto elastic = energy.values("elastic");
-    const std::size_t peak = peak_index(stress);
-    const auto first = stress.empty() ? std::nullopt : first_reaching(stress, 0.2 * stress[peak], peak);
-    if (!first || *first == peak) {
+    const auto rows = rows_to_peak(curve, sense);
+    if (rows.empty()) {
         badge.verdict = "too few samples before the peak to judge";
         return badge;
     }
     double imbalance = 0.0;
     double motion = 0.0;
     double unbalanced = 0.0;
-    for (std::size_t k = *first; k <= peak; ++k) {
+    for (const auto k : rows) {
         imbalance = std::max(imbalance, std::fabs(bottom[k] - top[k]) / std::max(std::fabs(0.5 * (bottom[k] + top[k])), 1e-300));
         motion = std::max(motion, kinetic[k] / std::max(elastic[k], 1e-300));
         unbalanced = std::max(unbalanced, ratio[k]);
@@ -60,27 +77,29 @@ report::Badge quasi_static_verdict(const report::Table& curve, const report::Tab
     return badge;
 }
 
-std::vector<report::Scalar> rate_results(const report::Table& curve) {
-    const auto stress = curve.values("axial_stress");
+std::vector<report::Scalar> rate_results(const report::Table& curve, double sense) {
     const auto rate = curve.values("rate");
-    const std::size_t peak = peak_index(stress);
-    const auto first = stress.empty() ? std::nullopt : first_reaching(stress, 0.2 * stress[peak], peak);
+    const auto time = curve.values("time");
+    const auto rows = rows_to_peak(curve, sense);
     std::optional<double> lowest;
     std::optional<double> highest;
     std::optional<double> mean;
-    if (first && *first < peak) {
-        const auto from = rate.begin() + static_cast<std::ptrdiff_t>(*first);
-        const auto to = rate.begin() + static_cast<std::ptrdiff_t>(peak) + 1;
-        lowest = *std::min_element(from, to);
-        highest = *std::max_element(from, to);
-        const auto time = curve.values("time");
+    if (!rows.empty()) {
+        lowest = highest = sense * rate[rows.front()];
         double travel = 0.0;
-        for (std::size_t k = *first; k < peak; ++k) {
-            travel += 0.5 * (rate[k] + rate[k + 1]) * (time[k + 1] - time[k]);
+        double duration = 0.0;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            lowest = std::min(*lowest, sense * rate[rows[k]]);
+            highest = std::max(*highest, sense * rate[rows[k]]);
+            if (k > 0) {
+                const double dt = time[rows[k]] - time[rows[k - 1]];
+                travel += 0.5 * sense * (rate[rows[k]] + rate[rows[k - 1]]) * dt;
+                duration += dt;
+            }
         }
-        mean = travel / (time[peak] - time[*first]);
+        mean = travel / duration;
     }
-    const char* range = "closing speed of the platens, from 20 % of the peak stress to the peak";
+    const char* range = "speed at which the platens approach or part, from 20 % of the peak stress to the peak";
     return {{"lowest_rate", "Lowest rate", lowest, "m/s", range},
             {"mean_rate", "Mean rate", mean, "m/s", range},
             {"highest_rate", "Highest rate", highest, "m/s", range}};
@@ -92,7 +111,11 @@ report::Badge energy_verdict(const report::Table& energy) {
         badge.verdict = "no samples";
         return badge;
     }
-    const auto work = energy.values("platens");
+    auto work = energy.values("platens");
+    const auto by_pressure = energy.values("pressure");
+    for (std::size_t k = 0; k < work.size(); ++k) {
+        work[k] += by_pressure[k];
+    }
     const auto residual = energy.values("residual");
     double worst = 0.0;
     for (std::size_t k = 0; k < work.size(); ++k) {
@@ -102,7 +125,7 @@ report::Badge energy_verdict(const report::Table& energy) {
     }
     badge.good = worst <= most_residual;
     badge.verdict = badge.good ? "closed" : "not closed: the time step is too large or the calculation lost its footing";
-    badge.figures = {{"residual over the platens' work, worst", against(worst, most_residual)}};
+    badge.figures = {{"residual over the work put in, worst", against(worst, most_residual)}};
     return badge;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/derived.hpp"
 #include "lab/test_run.hpp"
 
 namespace proveta {
@@ -20,8 +21,8 @@ std::optional<RateCheck> check_rate(const Deck& deck, const Specimen& specimen, 
     hooks.fields = [] {};
     hooks.interrupted = interrupted;
     const TestData slow = run_protocol(deck, bench, hooks, {.pace = 0.5, .until_drop = 0.15});
-    const auto stress = slow.curve.values("axial_stress");
-    const auto full = curve.values("axial_stress");
+    const auto stress = loading_of(slow.curve, bench.press.sense).deviator;
+    const auto full = loading_of(curve, bench.press.sense).deviator;
     if (slow.interrupted || !slow.failure.empty() || stress.empty() || full.empty()) {
         return std::nullopt;
     }

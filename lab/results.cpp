@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/input/units.hpp"
@@ -15,59 +16,64 @@ namespace proveta {
 
 namespace {
 
-report::Plot plot(const report::Table& t, const std::string& title, const std::string& x, double x_scale, const std::string& x_title,
-                  const std::vector<std::tuple<std::string, std::string, std::string>>& ys, double y_scale, const std::string& y_title) {
-    report::Plot p{title, x_title, y_title, {}, {}};
-    for (const auto& [column, curve_name, colour] : ys) {
-        report::Curve c{curve_name, t.values(x), t.values(column), colour};
-        for (double& v : c.x) {
-            v *= x_scale;
+// A column of the curve, or of the energies if the curve has none of that name.
+std::vector<double> column_of(const TestData& data, const std::string& name, double scale) {
+    const auto has = [&](const report::Table& t) {
+        return std::any_of(t.columns.begin(), t.columns.end(), [&](const auto& c) { return c.name == name; });
+    };
+    auto values = (has(data.curve) ? data.curve : data.energy).values(name);
+    for (double& v : values) {
+        v *= scale;
+    }
+    return values;
+}
+
+report::Plot plot_of(const PlotSpec& spec, const TestData& data) {
+    report::Plot p{spec.title, spec.x_title, spec.y_title, {}, {}};
+    for (const auto& c : spec.curves) {
+        report::Curve curve{c.name, column_of(data, c.x, spec.x_scale), column_of(data, c.y, spec.y_scale), c.colour};
+        const std::size_t peak = peak_index(curve.y);
+        if (c.to_peak) {
+            curve.x.resize(std::min(curve.x.size(), peak + 1));
+            curve.y.resize(curve.x.size());
         }
-        for (double& v : c.y) {
-            v *= y_scale;
+        if (spec.mark_peak && p.curves.empty() && !curve.y.empty()) {
+            p.marks.emplace_back(curve.x[peak], curve.y[peak]);
         }
-        p.curves.push_back(std::move(c));
+        p.curves.push_back(std::move(curve));
     }
     return p;
 }
 
-std::vector<report::Plot> plots(const TestData& data) {
-    report::Plot main = plot(data.curve, "Axial stress against strain; the mark is the peak.", "axial_strain", 100.0, "axial strain [%]",
-                             {{"axial_stress", "platens", "#1f4e79"}}, 1e-6, "axial stress [MPa]");
-    report::Curve gauge = main.curves.front();
-    gauge.name = "middle gauge";
-    gauge.colour = "#1e7b46";
-    report::Curve girth = gauge;
-    girth.name = "circumferential";
-    girth.colour = "#b9770e";
-    gauge.x = data.curve.values("gauge_axial_strain");
-    girth.x = data.curve.values("circumferential_strain");
-    // Past the peak strain runs into cracks and gauges no longer tell the material's strain.
-    const std::size_t peak = peak_index(main.curves.front().y);
-    for (auto* c : {&gauge, &girth}) {
-        c->x.resize(std::min(c->x.size(), peak + 1));
-        c->y.resize(c->x.size());
-        for (double& v : c->x) {
-            v *= 100.0;
-        }
+// The test's own plots, then what every test shows.
+std::vector<report::Plot> plots(const Protocol& protocol, double sense, const TestData& data) {
+    auto specs = protocol.plots();
+    specs.push_back({"Failed bonds.",
+                     "axial strain [%]",
+                     "failed bonds",
+                     sense * 100.0,
+                     1.0,
+                     {{"axial_strain", "broken_in_tension", "in tension", "#c0392b"}, {"axial_strain", "broken_in_shear", "in shear", "#d68910"}}});
+    specs.push_back({"Where the work put in went.",
+                     "axial strain [%]",
+                     "energy [J]",
+                     sense * 100.0,
+                     1.0,
+                     {{"axial_strain", "platens", "work of platens", "#111111"},
+                      {"axial_strain", "elastic", "elastic", "#1f4e79"},
+                      {"axial_strain", "damage", "damage", "#c0392b"},
+                      {"axial_strain", "plastic", "plastic", "#7d3c98"},
+                      {"axial_strain", "friction", "friction", "#b9770e"},
+                      {"axial_strain", "background", "background damping", "#1e7b46"},
+                      {"axial_strain", "kinetic", "kinetic", "#0e8a93"}}});
+    if (!data.energy.rows.empty() && data.energy.rows.back()[data.energy.column("pressure")] != 0.0) {
+        specs.back().curves.insert(specs.back().curves.begin() + 1, {"axial_strain", "pressure", "work of the pressure", "#7f8c8d"});
     }
-    if (!main.curves.front().y.empty()) {
-        main.marks.emplace_back(main.curves.front().x[peak], main.curves.front().y[peak]);
+    std::vector<report::Plot> out;
+    for (const auto& spec : specs) {
+        out.push_back(plot_of(spec, data));
     }
-    main.curves.push_back(gauge);
-    main.curves.push_back(girth);
-    return {main,
-            plot(data.curve, "Failed bonds.", "axial_strain", 100.0, "axial strain [%]",
-                 {{"broken_in_tension", "in tension", "#c0392b"}, {"broken_in_shear", "in shear", "#d68910"}}, 1.0, "failed bonds"),
-            plot(data.energy, "Where the work of the platens went.", "axial_strain", 100.0, "axial strain [%]",
-                 {{"platens", "work of platens", "#111111"},
-                  {"elastic", "elastic", "#1f4e79"},
-                  {"damage", "damage", "#c0392b"},
-                  {"plastic", "plastic", "#7d3c98"},
-                  {"friction", "friction", "#b9770e"},
-                  {"background", "background damping", "#1e7b46"},
-                  {"kinetic", "kinetic", "#0e8a93"}},
-                 1.0, "energy [J]")};
+    return out;
 }
 
 report::TextTable ledger_table(const report::Table& energy) {
@@ -156,13 +162,13 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     r.status = status;
     r.stopped_by = data.stopped_by;
     if (!data.curve.rows.empty()) {
-        r.results = deck.protocol->results(data.curve, data.energy);
-        for (auto& scalar : rate_results(data.curve)) {
+        r.results = deck.protocol->results({data.curve, data.energy, data.events, bench.specimen.shape, bench.press});
+        for (auto& scalar : rate_results(data.curve, bench.press.sense)) {
             r.results.push_back(std::move(scalar));
         }
-        r.plots = plots(data);
+        r.plots = plots(*deck.protocol, bench.press.sense, data);
     }
-    r.badges = {quasi_static_verdict(data.curve, data.energy, data.rate_check), energy_verdict(data.energy)};
+    r.badges = {quasi_static_verdict(data.curve, bench.press.sense, data.energy, data.rate_check), energy_verdict(data.energy)};
     if (status == "interrupted") {
         r.warnings.emplace_back("This result is partial: the run was interrupted.");
     } else if (status == "failed") {

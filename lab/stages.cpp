@@ -4,40 +4,77 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+
+#include "core/input/units.hpp"
+#include "lab/controls/closing.hpp"
+#include "lab/controls/servo.hpp"
+#include "lab/derived.hpp"
+#include "lab/fragments.hpp"
 
 namespace proveta {
 
-double smooth_start(double time, double ramp) {
-    return time >= ramp ? 1.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * std::max(time, 0.0) / ramp));
-}
+using input::Unit;
 
 void declare(input::Visitor& v, StopRules& r) {
-    v.number("axial_strain", r.axial_strain, input::Unit::none, {0.0, 0.5, true, false}, "nominal axial strain at which the test ends");
-    v.number("post_peak_drop", r.post_peak_drop, input::Unit::none, {0.0, 1.0, true, false},
-             "share of the peak stress whose loss ends the test; 1: never");
+    v.number("axial_strain", r.axial_strain, Unit::none, {0.0, 0.5, true, false},
+             "nominal axial strain, since the loading began, at which the test ends");
+    v.number("post_peak_drop", r.post_peak_drop, Unit::none, {0.0, 1.0, true, false},
+             "share of the peak deviatoric stress whose loss ends the test; 1: never");
+    v.number_or_word("time", r.time, {{"never", "however long it takes"}}, Unit::time, {0.0, 1e6, true, false},
+                     "time of the test, as a clock in the laboratory would show it, at which it ends");
+    v.choice("parted", r.parted, {{"go_on", "a parted specimen is loaded on"}, {"stop", "ends when no piece reaches from platen to platen"}},
+             "all bonds of some section have failed");
 }
 
-std::optional<std::string> stopped_by(const StopRules& rules, const report::Table& curve) {
-    if (curve.rows.empty()) {
+namespace {
+
+// No piece that holds together by bonds touches both loading platens.
+bool parted(const Model& model) {
+    const auto piece = fragments(model);
+    std::vector<std::uint8_t> touches(model.spheres.size(), 0);
+    for (std::size_t p = 0; p < 2; ++p) {
+        for (const auto s : model.platens[p].sphere) {
+            touches[static_cast<std::size_t>(piece[static_cast<std::size_t>(s)])] |= static_cast<std::uint8_t>(1u << p);
+        }
+    }
+    return std::find(touches.begin(), touches.end(), 3) == touches.end();
+}
+
+} // namespace
+
+std::optional<std::string> stopped_by_drop(double drop, const report::Table& curve, double sense) {
+    const Loading l = loading_of(curve, sense);
+    if (l.deviator.empty() || drop >= 1.0) {
         return std::nullopt;
     }
-    const auto strain = curve.rows.back()[curve.column("axial_strain")];
-    if (strain >= rules.axial_strain) {
-        return fmt::format("axial strain of {:.4g} reached", rules.axial_strain);
-    }
-    const std::size_t stress = curve.column("axial_stress");
-    const auto higher = [&](const auto& a, const auto& b) { return a[stress] < b[stress]; };
-    const auto peak = std::max_element(curve.rows.begin(), curve.rows.end(), higher);
-    const bool stands_out = curve.rows.end() - peak > 5 && curve.rows.back()[curve.column("broken_bonds")] > 0.0;
-    if (stands_out && curve.rows.back()[stress] < (1.0 - rules.post_peak_drop) * (*peak)[stress]) {
-        return fmt::format("stress fell by {:.0f} % from its peak", 100.0 * rules.post_peak_drop);
+    const std::size_t peak = peak_index(l.deviator);
+    const bool stands_out = l.deviator.size() - peak > 5 && curve.rows.back()[curve.column("broken_bonds")] > 0.0;
+    if (stands_out && l.deviator.back() < (1.0 - drop) * l.deviator[peak]) {
+        return fmt::format("stress fell by {:.0f} % from its peak", 100.0 * drop);
     }
     return std::nullopt;
 }
 
+std::optional<std::string> stopped_by(const StopRules& rules, const BenchView& bench) {
+    if (bench.curve.rows.empty()) {
+        return std::nullopt;
+    }
+    const Loading loading = loading_of(bench.curve, bench.press.sense);
+    if (!loading.strain.empty() && loading.strain.back() >= rules.axial_strain * (1.0 - 1e-9)) {
+        return fmt::format("axial strain of {:.4g} reached", rules.axial_strain);
+    }
+    if (rules.time.word.empty() && bench.model.time() >= rules.time.number) {
+        return fmt::format("time of {:.4g} s reached", rules.time.number);
+    }
+    if (rules.parted == "stop" && bench.model.broken() > 0 && parted(bench.model)) {
+        return "the specimen has parted";
+    }
+    return stopped_by_drop(rules.post_peak_drop, bench.curve, bench.press.sense);
+}
+
 void declare_friction(input::Visitor& v, input::NumberOrWord& friction) {
-    v.number_or_word("platen_friction", friction, {{"lubricated", "no friction"}, {"glued", "no lateral slip"}}, input::Unit::none,
+    v.number_or_word("platen_friction", friction, {{"lubricated", "no friction"}, {"glued", "no lateral slip"}}, Unit::none,
                      input::between(0, 10), "Coulomb friction between specimen and platens");
 }
 
@@ -46,6 +83,168 @@ double friction_value(const input::NumberOrWord& friction) {
         return glued;
     }
     return friction.word == "lubricated" ? 0.0 : friction.number;
+}
+
+void declare(input::Visitor& v, Cycle& c) {
+    v.number_or_word("axial_strain", c.axial_strain, {{"none", "by stress"}}, Unit::none, {0.0, 0.5, true, false},
+                     "axial strain since the loading began at which the platens turn back");
+    v.number_or_word("axial_stress", c.axial_stress, {{"none", "by strain"}}, Unit::pressure, input::above(0),
+                     "deviatoric stress at which the platens turn back");
+    v.number("unload_to", c.unload_to, Unit::none, {0.0, 1.0, false, true}, "share of the deviatoric stress there to which they unload");
+}
+
+void declare_axial(input::Visitor& v, AxialLoading& l, bool with_girth) {
+    v.number_or_word("rate", l.rate.rate, {{"auto", "fast while the specimen is elastic, slow where bonds break"}}, Unit::velocity,
+                     {0.0, 10.0, true, false}, "speed at which the platens approach or part, each moving at half of it");
+    v.number_or_word("ramp", l.rate.ramp, {{"auto", "the time in which a wave crosses the specimen twenty times"}}, Unit::time,
+                     input::at_least(0), "time in which the platens reach their speed, unless \"rate\" is \"auto\"");
+    v.choice("rate_check", l.rate.check,
+             {{"off", "the verdict says that the rate was not checked"},
+              {"half_rate", "the test is run again to just past its peak with all speeds halved, which takes twice as many steps to there, "
+                            "and the verdict compares the peaks"}},
+             "confirmation that the rate does not matter");
+    v.list("cycles", l.cycles, "unloading and reloading, in the order in which the loading meets them");
+    if (with_girth) {
+        v.choice("control", l.control,
+                 {{"platens", "the closing of the platens leads the whole test"},
+                  {"girth", "from the first failed bonds on, the circumferential gauge does: the platens give way when cracks open too fast"}},
+                 "what leads the test");
+        v.number_or_word("girth_rate", l.girth_rate, {{"auto", "the rate at which the girth grows when it takes the lead"}}, Unit::none,
+                         {0.0, 1e4, true, false}, "growth of the circumferential strain under \"control\": \"girth\", 1/s");
+    }
+}
+
+void check_axial(const AxialLoading& l, double limit, const std::string& source, input::Problems& problems) {
+    double last = 0.0;
+    for (std::size_t k = 0; k < l.cycles.size(); ++k) {
+        const Cycle& c = l.cycles[k];
+        const std::string path = fmt::format("/loading/cycles/{}", k);
+        const bool by_strain = c.axial_strain.word.empty();
+        if (by_strain == c.axial_stress.word.empty()) {
+            problems.push_back({source, path, by_strain ? "both axial_strain and axial_stress" : "neither axial_strain nor axial_stress",
+                                "one of them", ""});
+        } else if (by_strain) {
+            if (c.axial_strain.number <= last) {
+                problems.push_back({source, path + "/axial_strain", fmt::format("{:.4g}", c.axial_strain.number),
+                                    fmt::format("more than {:.4g}, the strain of the cycle before", last), "list cycles in ascending order"});
+            } else if (c.axial_strain.number >= limit) {
+                problems.push_back({source, path + "/axial_strain", fmt::format("{:.4g}", c.axial_strain.number),
+                                    fmt::format("less than {:.4g}, at which the test ends", limit), "raise stop.axial_strain"});
+            }
+            last = c.axial_strain.number;
+        }
+    }
+}
+
+namespace {
+
+// Where a loading stands, known to all its stages.
+struct Path {
+    std::optional<double> origin; // strain at which the loading began
+    double turned_strain = 0.0;   // at the last turn back
+    double turned_stress = 0.0;   // deviatoric stress there, Pa
+};
+
+std::shared_ptr<Control> closing_control(const AxialLoading& l, const BenchView& bench, const AxialTarget& t, double pace) {
+    if (l.rate.automatic()) {
+        const double length = bench.press.length;
+        const RateScale scale{length, bench.wave_speed, t.first_damage, steps_between_looks(length, bench.wave_speed, bench.model.dt())};
+        return std::make_shared<LedClosing>(scale, pace, t.pressure);
+    }
+    const double ramp = (l.rate.ramp.word == "auto" ? 20.0 * bench.crossing() : l.rate.ramp.number) / pace;
+    return std::make_shared<SteadyClosing>(pace * l.rate.rate.number, ramp, t.pressure);
+}
+
+} // namespace
+
+std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, const AxialTarget& target, double pace) {
+    const auto path = std::make_shared<Path>();
+    const auto strain = [path](const BenchView& b) {
+        if (!path->origin) {
+            path->origin = b.strain();
+        }
+        return b.strain() - *path->origin;
+    };
+    const auto deviator = [p = target.pressure](const BenchView& b) { return b.stress() - p; };
+    const auto control = closing_control(l, bench, target, pace);
+    constexpr double cycle_share = 0.08; // of the loading's samples
+    const double unloading = l.rate.automatic() ? 0.0 : pace * l.rate.rate.number;
+
+    std::vector<Stage> stages;
+    for (std::size_t k = 0; k < l.cycles.size(); ++k) {
+        const Cycle c = l.cycles[k];
+        const bool by_strain = c.axial_strain.word.empty();
+        stages.push_back({"loading", Stage::Kind::loading, target.share * (by_strain ? c.axial_strain.number / target.strain : 0.3), control,
+                          [=](const BenchView& b) {
+                              path->turned_strain = strain(b);
+                              path->turned_stress = deviator(b);
+                              return by_strain ? path->turned_strain / c.axial_strain.number
+                                               : path->turned_stress / c.axial_stress.number;
+                          }});
+        stages.push_back({fmt::format("unloading {}", k + 1), Stage::Kind::cycling, target.share * cycle_share,
+                          std::make_shared<Unloading>(unloading, pace, target.pressure), [=](const BenchView& b) {
+                              return (path->turned_stress - deviator(b)) / ((1.0 - c.unload_to) * path->turned_stress);
+                          }});
+        stages.push_back({fmt::format("reloading {}", k + 1), Stage::Kind::cycling, target.share * cycle_share, control,
+                          [=](const BenchView& b) { return strain(b) / path->turned_strain; }});
+    }
+    const auto to_end = [=](const BenchView& b) { return strain(b) / target.strain; };
+    if (l.control == "girth") {
+        stages.push_back({"loading", Stage::Kind::loading, 0.3 * target.share, control, [=](const BenchView& b) {
+                              const double failed = static_cast<double>(b.model.broken()) / (0.001 * static_cast<double>(b.model.bonds.size()));
+                              return std::max(failed, to_end(b));
+                          }});
+        const double rate = l.girth_rate.word.empty() ? pace * l.girth_rate.number : 0.0;
+        stages.push_back({"loading by girth", Stage::Kind::loading, target.share,
+                          std::make_shared<GirthServo>(rate, 2.0 * elastic_guess(bench.model).poisson, target.pressure),
+                          [=](const BenchView& b) { return std::max(to_end(b), -b.girth_strain() / target.strain); }});
+    } else {
+        stages.push_back({"loading", Stage::Kind::loading, target.share, control, to_end});
+    }
+    return stages;
+}
+
+double lowest_tensile_strain(const Bonds& bonds) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const auto& block : bonds.blocks) {
+        const BondLaw& law = bonds.laws[block.law];
+        const double strength = law.criterion == Criterion::bond ? law.sigma_f : law.averaged_sigma_f;
+        for (auto b = block.begin; b < block.end; ++b) {
+            lowest = std::min(lowest, strength * bonds.area[b] / (bonds.stiffness[b] * bonds.length[b]));
+        }
+    }
+    return lowest;
+}
+
+ElasticGuess elastic_guess(const Model& model) {
+    const Material& m = model.materials.front();
+    // A network of virtual polyhedra answers with some 0.71 of its bonds' modulus and a Poisson's ratio near 0.2.
+    return {0.71 * m.normal_factor * m.young_modulus, 0.2};
+}
+
+std::shared_ptr<Control> servo(const BenchView& bench, std::function<double(double time)> pressure, double speed_limit) {
+    const ElasticGuess e = elastic_guess(bench.model);
+    return std::make_shared<StressServo>(std::move(pressure),
+                                         StressServo::Settings{(1.0 - 2.0 * e.poisson) / e.young, e.young, speed_limit});
+}
+
+Stage isotropic_stage(const BenchView& bench, double pressure, double ramp, double speed_limit, double share, double pace) {
+    const double duration = ramp / pace;
+    const auto p = [=](double time) { return pressure * smooth_start(time, duration); };
+    const double begun = bench.model.time();
+    return {"isotropic", Stage::Kind::preparing, share, servo(bench, p, speed_limit),
+            [=](const BenchView& b) { return (b.model.time() - begun) / duration; }};
+}
+
+Stage hold_stage(const BenchView& bench, double pressure, double speed_limit, double share) {
+    const auto begun = std::make_shared<std::optional<double>>();
+    const double duration = 10.0 * bench.crossing();
+    return {"hold", Stage::Kind::preparing, share, servo(bench, [=](double) { return pressure; }, speed_limit), [=](const BenchView& b) {
+                if (!*begun) {
+                    *begun = b.model.time();
+                }
+                return (b.model.time() - **begun) / duration;
+            }};
 }
 
 } // namespace proveta

@@ -6,8 +6,8 @@
 
 namespace proveta {
 
-/// Pressure on the lateral surface: spheres whose centre lies within 1.2 radii of it, with shares pi R^2 of the surface that add up to it.
-/// On a cylinder the normals follow the specimen; on a prism each sphere belongs to its nearest side.
+/// Pressure on the lateral surface, normalised to its true area; it follows the specimen. Throws std::invalid_argument when there are too few
+/// spheres at the side.
 Pressure lateral_pressure(const Shape& shape, const Spheres& spheres);
 
 /// The same on one end: the upper one for outward = +1, the lower for -1.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/derived.hpp"
 #include "lab/fields.hpp"
 #include "lab/stages.hpp"
 
@@ -50,87 +51,131 @@ void record_failures(const Model& model, double strain, Instruments& instruments
     }
 }
 
-void lead(const Model& model, double strain, bool look, RateControl& rate) {
-    if (look) {
-        const Ledger& l = model.ledger();
-        rate.observe({strain, l.platens + l.pressure, l.damage, l.kinetic, l.elastic, model.measures().unbalanced_ratio});
-    }
-    rate.advance(model.dt());
+double phase_of(Stage::Kind kind) {
+    return kind == Stage::Kind::preparing ? phase_preparing : kind == Stage::Kind::loading ? phase_loading : phase_cycling;
 }
+
+// A run of the protocol: the stages one after the other, each led by its control, sampled in equal parts of the whole test.
+class Run {
+  public:
+    Run(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant)
+        : deck_(deck), bench_(bench), hooks_(hooks), variant_(variant), model_(*bench.model), instruments_(bench),
+          view_{model_, bench.specimen.shape, bench.press, instruments_, bench.wave_speed, data_.curve} {
+        data_.curve = instruments_.empty_curve();
+        data_.energy = instruments_.empty_energy();
+    }
+
+    TestData go() {
+        data_.pictures.push_back(slice(bench_, "Before the test"));
+        const auto stages = deck_.protocol->stages(view_, variant_.pace);
+        try {
+            for (const auto& stage : stages) {
+                data_.stages.push_back(stage.name);
+                pass(stage);
+                if (data_.interrupted || !data_.stopped_by.empty()) {
+                    break;
+                }
+                before_ += stage.share;
+            }
+            if (data_.interrupted) {
+                data_.stopped_by = "interrupted by the user";
+            } else if (data_.stopped_by.empty()) {
+                data_.stopped_by = "the loading is complete";
+            }
+            if (deck_.output.fields > 0) {
+                hooks_.fields();
+            }
+        } catch (const NumericalFailure& e) {
+            data_.failure = e.what();
+            data_.stopped_by = "the calculation failed: " + data_.failure;
+        }
+        watch_.add_to(data_.pictures);
+        data_.pictures.push_back(slice(bench_, "At the end"));
+        return std::move(data_);
+    }
+
+  private:
+    void pass(const Stage& stage) {
+        stage.control->begin(view_, drive_);
+        for (bool over = false; !over;) {
+            const double done = stage.done(view_);
+            const double whole = before_ + stage.share * std::clamp(done, 0.0, 1.0);
+            over = done >= 1.0;
+            const bool due = over || whole * static_cast<double>(deck_.output.samples) >= static_cast<double>(samples_);
+            step(stage, due);
+            if (due) {
+                sample(stage, whole);
+            } else if (model_.steps() % 256 == 0) {
+                hooks_.progress(data_, whole);
+                data_.interrupted = hooks_.interrupted();
+            }
+            over = over || data_.interrupted || !data_.stopped_by.empty();
+        }
+    }
+
+    void step(const Stage& stage, bool due) {
+        const bool measured = due || stage.control->looks(view_);
+        drive_ = stage.control->drive(view_);
+        speeds_.assign(model_.platens.size(), 0.0);
+        speeds_[0] = 0.5 * bench_.press.sense * drive_.closing;
+        speeds_[1] = -speeds_[0];
+        for (auto& pressure : model_.pressures) {
+            pressure.value = drive_.pressure;
+        }
+        model_.step(speeds_, measured);
+        stage.control->stepped(view_, measured);
+        record_failures(model_, bench_.press.sense * view_.strain(), instruments_, data_.events);
+    }
+
+    void sample(const Stage& stage, double whole) {
+        const Instruments::Mark mark{static_cast<double>(data_.stages.size() - 1), phase_of(stage.kind), drive_.pressure};
+        instruments_.sample(bench_, mark, data_.curve, data_.energy);
+        samples_ = static_cast<std::int64_t>(std::floor(whole * static_cast<double>(deck_.output.samples))) + 1;
+        if (stage.kind != Stage::Kind::preparing) {
+            watch_.look(bench_, view_.stress() - drive_.pressure, view_.strain());
+        }
+        if (deck_.output.fields > 0 && whole * static_cast<double>(deck_.output.fields) >= static_cast<double>(fields_)) {
+            hooks_.fields();
+            fields_ = static_cast<std::int64_t>(std::floor(whole * static_cast<double>(deck_.output.fields))) + 1;
+        }
+        hooks_.progress(data_, whole);
+        data_.interrupted = hooks_.interrupted();
+        if (stage.kind != Stage::Kind::loading) {
+            return;
+        }
+        if (const auto why = deck_.protocol->stop(view_)) {
+            data_.stopped_by = *why;
+        } else if (const auto fell = stopped_by_drop(variant_.until_drop, data_.curve, bench_.press.sense)) {
+            data_.stopped_by = *fell;
+        }
+    }
+
+    const Deck& deck_;
+    Bench& bench_;
+    const TestHooks& hooks_;
+    const TestVariant& variant_;
+    Model& model_;
+    Instruments instruments_;
+    TestData data_;
+    BenchView view_;
+    PeakWatch watch_;
+    Drive drive_;
+    std::vector<double> speeds_;
+    double before_ = 0.0; // share of the test in earlier stages
+    std::int64_t samples_ = 0;
+    std::int64_t fields_ = 0;
+};
 
 } // namespace
 
+double BenchView::strain() const { return press.sense * (1.0 - (model.platens[1].position - model.platens[0].position) / press.length); }
+
+double BenchView::stress() const { return press.sense * 0.5 * (model.platens[0].load() + model.platens[1].load()) / press.area; }
+
+double BenchView::girth_strain() const { return instruments.girth_strain(model); }
+
 TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant) {
-    Model& model = *bench.model;
-    Instruments instruments(bench);
-    TestData data;
-    data.curve = instruments.empty_curve();
-    data.energy = instruments.empty_energy();
-    data.pictures.push_back(slice(bench, "Before the test"));
-
-    const double range = deck.protocol->strain_range();
-    const double per_sample = range / static_cast<double>(deck.output.samples);
-    const double per_field = deck.output.fields > 0 ? range / static_cast<double>(deck.output.fields) : 2.0 * range;
-    std::int64_t sample = 0;
-    std::int64_t field = 0;
-    PeakWatch watch;
-    const BenchView view{model, bench.specimen.shape, bench.wave_speed, data.curve};
-    const auto stages = deck.protocol->stages(view, variant.pace);
-
-    try {
-        for (const auto& stage : stages) {
-            const double begun = model.time();
-            for (bool over = false; !over;) {
-                const double strain = instruments.nominal_strain(model);
-                const bool due = strain >= static_cast<double>(sample) * per_sample;
-                const double in_stage = model.time() - begun;
-                const bool look = stage.rate && stage.rate->looks_at(model.steps());
-                model.step(stage.speeds(view, in_stage), due || look);
-                if (stage.rate) {
-                    lead(model, strain, look, *stage.rate);
-                }
-                record_failures(model, strain, instruments, data.events);
-                if (!due) {
-                    if (model.steps() % 256 == 0) {
-                        hooks.progress(data, strain / range);
-                        data.interrupted = hooks.interrupted();
-                        over = data.interrupted;
-                    }
-                    continue;
-                }
-                instruments.sample(bench, data.curve, data.energy);
-                sample = static_cast<std::int64_t>(std::floor(strain / per_sample)) + 1;
-                watch.look(bench, data.curve.rows.back()[data.curve.column("axial_stress")], strain);
-                if (strain >= static_cast<double>(field) * per_field) {
-                    hooks.fields();
-                    field = static_cast<std::int64_t>(std::floor(strain / per_field)) + 1;
-                }
-                hooks.progress(data, strain / range);
-                data.interrupted = hooks.interrupted();
-                if (const auto why = deck.protocol->stop(view)) {
-                    data.stopped_by = *why;
-                } else if (const auto fell = stopped_by({1.0, variant.until_drop}, data.curve)) {
-                    data.stopped_by = *fell;
-                }
-                over = data.interrupted || !data.stopped_by.empty() || (stage.finished && stage.finished(view, in_stage));
-            }
-            if (data.interrupted || !data.stopped_by.empty()) {
-                break;
-            }
-        }
-        if (data.interrupted) {
-            data.stopped_by = "interrupted by the user";
-        }
-        if (deck.output.fields > 0) {
-            hooks.fields();
-        }
-    } catch (const NumericalFailure& e) {
-        data.failure = e.what();
-        data.stopped_by = "the calculation failed: " + data.failure;
-    }
-    watch.add_to(data.pictures);
-    data.pictures.push_back(slice(bench, "At the end"));
-    return data;
+    return Run(deck, bench, hooks, variant).go();
 }
 
 } // namespace proveta

@@ -6,20 +6,12 @@
 #include <vector>
 
 #include "lab/bench.hpp"
+#include "lab/failure_event.hpp"
 #include "lab/instruments.hpp"
 #include "lab/rate_check.hpp"
 #include "reports/record/record.hpp"
 
 namespace proveta {
-
-/// A bond's failure.
-struct FailureEvent {
-    double time;         ///< s
-    double axial_strain; ///< nominal
-    Vec3 position;       ///< middle of the bond, m
-    FailureMode mode;
-    double energy; ///< dissipated by the bond's damage from first softening to failure, J
-};
 
 /// What a test left behind, apart from the model.
 struct TestData {
@@ -27,6 +19,7 @@ struct TestData {
     report::Table energy;
     std::vector<FailureEvent> events;
     std::vector<report::Picture> pictures; ///< before, at peak, 20 % past it, at the end
+    std::vector<std::string> stages; ///< names of those that were begun
     std::string stopped_by;
     std::optional<RateCheck> rate_check; ///< empty: none was made
     std::string failure;                 ///< non-empty: the calculation failed, and how

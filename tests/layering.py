@@ -19,7 +19,7 @@ ROOMS = {
 LIBRARIES = {
     r"nlohmann/": ("core/input/json.hpp", "materials", "specimens", "reports", "lab", "tests"),
     r"hdf5|H5": ("specimens", "reports"),
-    r"vtk": ("reports", "specimens/import", "tests"),
+    r"vtk": ("reports", "specimens", "tests"),
     r"voro\+\+/": ("specimens",),
     r"fmt/": ("core/input", "materials", "specimens", "reports", "lab", "tests"),
     r"spdlog/|CLI/": ("lab",),

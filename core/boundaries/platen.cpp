@@ -6,31 +6,30 @@
 
 namespace proveta {
 
-Platen make_platen(const Spheres& spheres, double position, double inward, double friction, double end_area, double capping) {
+Platen make_platen(const Spheres& spheres, const Face& face, double position, double friction, double area, double capping) {
     Platen p;
+    p.face = face;
     p.position = position;
-    p.inward = inward;
     p.friction = friction;
     p.capped.assign(spheres.size(), 0.0);
     double discs = 0.0;
     for (std::size_t s = 0; s < spheres.size(); ++s) {
-        const double distance = (spheres.position.z[s] - position) * inward;
-        const double r = spheres.radius[s];
-        if (distance <= (1.0 + capping) * r) {
-            p.capped[s] = distance;
+        const auto foot = p.foot(spheres.position.at(s));
+        if (foot.within && foot.distance <= (1.0 + capping) * spheres.radius[s]) {
+            p.capped[s] = foot.distance;
             discs += spheres.section(s);
         }
     }
-    p.area_weight = discs > 0.0 ? end_area / discs : 1.0;
+    p.area_weight = discs > 0.0 && area > 0.0 ? area / discs : 1.0;
     return p;
 }
 
-Platen make_wall(const Spheres& spheres, double position, double inward, const Material& face, double friction) {
+Platen make_wall(const Spheres& spheres, const Face& face, double position, const Material& material, double friction) {
     Platen p;
-    p.position = position;
-    p.inward = inward;
-    p.friction = friction;
     p.face = face;
+    p.position = position;
+    p.friction = friction;
+    p.wall = material;
     p.capped.assign(spheres.size(), 0.0);
     return p;
 }
@@ -38,14 +37,13 @@ Platen make_wall(const Spheres& spheres, double position, double inward, const M
 void search_platen(const Spheres& spheres, const std::vector<Material>& materials, double skin, Platen& p) {
     const Platen old = p;
     p.sphere.clear();
-    p.slip_x.clear();
-    p.slip_y.clear();
+    p.slip.resize(0);
     p.viscous.resize(0);
     std::size_t before = 0;
     for (std::size_t s = 0; s < spheres.size(); ++s) {
         const double touch = p.capped[s] > 0.0 ? p.capped[s] : spheres.radius[s];
-        const double distance = (spheres.position.z[s] - p.position) * p.inward;
-        if (distance > touch + skin || distance < 0.0) { // behind the plane: escaped, not pressed
+        const auto foot = p.foot(spheres.position.at(s));
+        if (!foot.within || foot.distance > touch + skin || foot.distance < 0.0) { // behind the surface: escaped, not pressed
             continue;
         }
         const auto id = static_cast<std::int32_t>(s);
@@ -54,8 +52,7 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
             ++before;
         }
         const bool known = before < old.sphere.size() && old.sphere[before] == id;
-        p.slip_x.push_back(known ? old.slip_x[before] : 0.0);
-        p.slip_y.push_back(known ? old.slip_y[before] : 0.0);
+        p.slip.push_back(known ? old.slip.at(before) : Vec3::Zero());
         p.viscous.push_back(known ? old.viscous.at(before) : Vec3::Zero());
     }
     set_up_platen(spheres, materials, p);
@@ -64,7 +61,7 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
 void set_up_platen(const Spheres& spheres, const std::vector<Material>& materials, Platen& p) {
     std::vector<LoosePair> pairs;
     for (const auto& m : materials) {
-        pairs.push_back(p.face ? wall_pair(m, *p.face, p.friction) : LoosePair{});
+        pairs.push_back(p.wall ? wall_pair(m, *p.wall, p.friction) : LoosePair{});
     }
     p.force.resize(p.sphere.size());
     p.contact_distance.clear();
@@ -74,7 +71,7 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
         const auto material = static_cast<std::size_t>(spheres.material[s]);
         const double r = spheres.radius[s];
         p.contact_distance.push_back(p.capped[s] > 0.0 ? p.capped[s] : r);
-        if (p.face) {
+        if (p.wall) {
             p.law.push_back(wall_contact(pairs[material], {r, spheres.mass[s], spheres.inertia[s]}, spheres.section(s)));
         } else {
             const Material& m = materials[material];
@@ -82,6 +79,7 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
             cap.k_n = m.normal_factor * m.young_modulus * p.area_weight * spheres.section(s) / r;
             cap.k_t = bond_law(m).shear_ratio * cap.k_n;
             cap.friction = p.friction;
+            cap.tension = p.bonded && p.capped[s] > 0.0;
             p.law.push_back(cap);
         }
     }
@@ -92,26 +90,42 @@ void PlatenSums::add(const PlatenSums& other) {
     friction += other.friction;
     dashpot += other.dashpot;
     reaction += other.reaction;
+    thrust += other.thrust;
     touching += other.touching;
 }
+
+namespace {
+
+// A tangential displacement brought into the plane across n as that turns, its size kept.
+Vec3 across(const Vec3& u, const Vec3& n) {
+    const Vec3 flat = u - n * n.dot(u);
+    const double size = flat.norm();
+    return size > 0.0 ? Vec3(flat * (u.norm() / size)) : flat;
+}
+
+} // namespace
 
 PlatenSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& block, double elapsed, double dt, Loads& loads) {
     PlatenSums sum;
     const ListedRange range = listed_in(p.sphere, block);
     for (std::size_t k = range.begin; k < range.end; ++k) {
         const auto s = static_cast<std::size_t>(p.sphere[k]);
-        const double distance = (spheres.position.z[s] - p.position) * p.inward;
-        const double approach = (p.velocity - spheres.velocity.z[s]) * p.inward * elapsed;
-        // Contact point at the foot of the sphere: platen's velocity there minus the sphere's.
-        const Vec3 arm(0.0, 0.0, -distance * p.inward);
-        const Vec3 at_contact = spheres.velocity.at(s) + spheres.spin.at(s).cross(arm);
-        const double slip[3] = {-at_contact.x() * elapsed, -at_contact.y() * elapsed, 0.0};
-        contact::State<double> state{{p.slip_x[k], p.slip_y[k], 0.0}, p.viscous.z[k] * p.inward, {p.viscous.x[k], p.viscous.y[k], 0.0}};
+        const auto [distance, n, within] = p.foot(spheres.position.at(s));
+        const double approach = (p.velocity * p.face.axis - spheres.velocity.at(s)).dot(n) * elapsed;
+        // Contact point at the foot of the sphere: the platen slides along its axis only where that lies across the normal.
+        const Vec3 arm = -distance * n;
+        const Vec3 relative = p.velocity * p.face.axis - spheres.velocity.at(s) - spheres.spin.at(s).cross(arm);
+        const Vec3 sliding = (relative - n * n.dot(relative)) * elapsed;
+        const double slip[3] = {sliding.x(), sliding.y(), sliding.z()};
+        const Vec3 old_slip = across(p.slip.at(k), n);
+        const Vec3 viscous = p.viscous.at(k);
+        const Vec3 viscous_t = viscous - n * n.dot(viscous);
+        contact::State<double> state{
+            {old_slip.x(), old_slip.y(), old_slip.z()}, viscous.dot(n), {viscous_t.x(), viscous_t.y(), viscous_t.z()}};
         const auto r = advance(p.law[k], p.contact_distance[k] - distance, approach, elapsed, slip, state);
-        p.slip_x[k] = state.u_t[0];
-        p.slip_y[k] = state.u_t[1];
-        p.viscous.set(k, {state.viscous_t[0], state.viscous_t[1], state.viscous * p.inward});
-        const Vec3 force(r.shear[0], r.shear[1], r.normal * p.inward);
+        p.slip.set(k, {state.u_t[0], state.u_t[1], state.u_t[2]});
+        p.viscous.set(k, Vec3(state.viscous_t[0], state.viscous_t[1], state.viscous_t[2]) + state.viscous * n);
+        const Vec3 force = Vec3(r.shear[0], r.shear[1], r.shear[2]) + r.normal * n;
         p.force.set(k, force);
         Vec3 torque = arm.cross(force);
         if (p.law[k].rolling_arm > 0.0) {
@@ -122,6 +136,7 @@ PlatenSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& b
         }
         loads.add(s, force, torque);
         sum.reaction -= force;
+        sum.thrust += r.normal;
         sum.touching += r.normal > 0.0 ? 1 : 0;
         sum.stored += r.stored;
         sum.friction += r.friction_work;

@@ -1,6 +1,7 @@
-// A rigid plane across the z axis that moves along it: a loading platen, or a wall that loose spheres meet.
+// A rigid surface that meets spheres: a loading platen, a curved jaw, a ring around the specimen, or a wall that loose spheres meet.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -18,34 +19,74 @@ struct PlatenSums {
     double friction = 0.0;
     double dashpot = 0.0;
     Vec3 reaction = Vec3::Zero(); ///< force of the specimen on the platen, N
+    double thrust = 0.0;          ///< sum of the normal forces, N
     int touching = 0;
 
     void add(const PlatenSums& other);
 };
 
-/// A rigid plane z = `position` whose specimen lies on the side `inward` (+1 above it, -1 below it). Without a face material it is the cap
-/// of a specimen's end: spheres meet it by LS+D without dashpot: stiffness E A / R over the half sphere between plane and centre, the areas
-/// of the first contacts sharing out the specimen's end, so that the platen adds no compliance of its own. Spheres that lie within
-/// `capping` of the plane at the start touch it then, without force, as a ground or capped end does. With a face material spheres meet it
-/// by their loose law with the equivalents of a wall (2.41), rolling resistance included.
+/// The form of a surface that moves along `axis`. Flat, its plane stands across the axis at a position along it; hollow, it is the inside
+/// of a cylinder about a line along z, whose nearest point to what it presses on the way along the axis is at that position. A ring about
+/// the specimen is hollow with its position at minus its radius: its line is then the z axis.
+struct Face {
+    static constexpr double boundless = std::numeric_limits<double>::infinity();
+
+    Vec3 axis = Vec3::UnitZ();   ///< unit vector; of a hollow face across z
+    double inward = 1.0;         ///< the specimen lies on this side of the position, +1 or -1
+    double curvature = 0.0;      ///< of a hollow face: 1 / radius, 1/m; 0: flat
+    double half_width = boundless; ///< reach on both sides of the axis, along z x axis, m
+
+    /// Where a point is seen from the face.
+    struct Foot {
+        double distance; ///< from the face, positive on the specimen's side, m
+        Vec3 normal;     ///< unit vector from the face to the specimen
+        bool within;     ///< of the face's width
+    };
+    [[nodiscard]] Foot foot(double position, const Vec3& point) const {
+        if (curvature == 0.0) {
+            const bool within = half_width == boundless || std::fabs(Vec3::UnitZ().cross(axis).dot(point)) <= half_width;
+            return {(point.dot(axis) - position) * inward, inward * axis, within};
+        }
+        const Vec3 line = (position + inward / curvature) * axis;
+        const Vec3 out(point.x() - line.x(), point.y() - line.y(), 0.0);
+        const double r = out.norm();
+        const bool within = half_width == boundless || std::fabs(Vec3::UnitZ().cross(axis).dot(out)) <= half_width;
+        return {1.0 / curvature - r, r > 0.0 ? Vec3(-out / r) : Vec3(inward * axis), within && (half_width == boundless || out.dot(axis) * inward <= 0.0)};
+    }
+};
+
+/// The inside of a ring of the given radius about the z axis, and the position that goes with it.
+inline Face ring_face(double radius) { return {Vec3::UnitX(), 1.0, 1.0 / radius, Face::boundless}; }
+
+/// A rigid surface. Without a wall material it caps a piece of the specimen's surface: spheres meet it by LS+D without dashpot: stiffness
+/// E A / R over the half sphere between surface and centre, the areas of the first contacts sharing out the capped piece, so that the
+/// platen adds no compliance of its own. Spheres that lie within `capping` of the surface at the start touch it then, without force, as
+/// under a ground or capped end. With a wall material spheres meet it by their loose law with the equivalents of a wall (2.41), rolling
+/// resistance included.
 struct Platen {
-    double position = 0.0; ///< m
-    double velocity = 0.0; ///< of the last move, m/s
-    double inward = 1.0;
+    Face face;
+    double position = 0.0;                ///< along the face's axis, m
+    double velocity = 0.0;                ///< of the last move, m/s
     double friction = 0.0;                ///< mu; infinity: glued sideways
+    bool bonded = false;                  ///< holds the capped spheres in tension too; with infinite friction they are glued on
     std::vector<std::int32_t> sphere;     ///< listed spheres, ascending
-    std::optional<Material> face;         ///< of a wall
+    std::optional<Material> wall;         ///< material of a wall
     std::vector<double> contact_distance; ///< m
     std::vector<LooseContact> law;        ///< constants of each contact
-    std::vector<double> slip_x, slip_y;   ///< elastic tangential displacement, m
+    VectorField slip;                     ///< elastic tangential displacement, m
     VectorField viscous;                  ///< force of the dashpots on the sphere at the last step, N
     VectorField force;                    ///< on each listed sphere at the last step, N
     std::vector<double> capped;           ///< per sphere of the specimen: contact distance from the start, m; 0: none
     double area_weight = 1.0;             ///< contact area over the sphere's section
     Vec3 reaction = Vec3::Zero();         ///< force of the specimen on the platen, N
+    double thrust = 0.0;                  ///< sum of the normal forces on it, N
     int touching = 0;
 
-    /// Moves the plane by velocity dt.
+    [[nodiscard]] Face::Foot foot(const Vec3& point) const { return face.foot(position, point); }
+    /// Force of the specimen against the platen's way inward, N: positive in compression.
+    [[nodiscard]] double load() const { return -face.inward * face.axis.dot(reaction); }
+
+    /// Moves the surface by velocity dt.
     void move(double speed, double dt) {
         velocity = speed;
         position += speed * dt;
@@ -54,12 +95,12 @@ struct Platen {
 
 constexpr double glued = std::numeric_limits<double>::infinity();
 
-/// A platen at `position` that caps the given end of the specimen. end_area: nominal area of that end, m2; capping: reach of the first
-/// contacts beyond the plane over the sphere's radius.
-Platen make_platen(const Spheres& spheres, double position, double inward, double friction, double end_area, double capping);
+/// A platen that caps a piece of the specimen's surface. area: of that piece, m2, 0 for contacts as large as the spheres' sections;
+/// capping: reach of the first contacts beyond the surface over the sphere's radius.
+Platen make_platen(const Spheres& spheres, const Face& face, double position, double friction, double area, double capping);
 
-/// A wall at `position` with a face material; its friction is that of the spheres' surface against this one.
-Platen make_wall(const Spheres& spheres, double position, double inward, const Material& face, double friction);
+/// A wall with a material; its friction is that of the spheres' surface against this one.
+Platen make_wall(const Spheres& spheres, const Face& face, double position, const Material& material, double friction);
 
 /// Lists anew the spheres within `skin` metres of touching, keeping tangential histories.
 void search_platen(const Spheres& spheres, const std::vector<Material>& materials, double skin, Platen& platen);

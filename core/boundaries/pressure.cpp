@@ -2,18 +2,64 @@
 
 namespace proveta {
 
+namespace {
+
+Vec3 corner(const Spheres& spheres, const Pressure& p, std::uint32_t k) {
+    return spheres.position.at(static_cast<std::size_t>(p.sphere[k])) + Vec3(0.0, 0.0, p.raise[k]);
+}
+
+// A sphere's share of the area vectors of its facets.
+Vec3 area_of(const Spheres& spheres, const Pressure& p, std::uint32_t k) {
+    const Vec3 own = corner(spheres, p, k);
+    Vec3 sum = Vec3::Zero();
+    for (auto e = p.offset[k]; e < p.offset[k + 1]; ++e) {
+        const auto [b, c] = p.others[e];
+        sum += (corner(spheres, p, b) - own).cross(corner(spheres, p, c) - own);
+    }
+    return p.scale / 6.0 * sum;
+}
+
+} // namespace
+
+Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const std::vector<Facet>& facets,
+                       double surface) {
+    Pressure p;
+    p.sphere = std::move(sphere);
+    p.raise = std::move(raise);
+    std::vector<std::vector<std::array<std::uint32_t, 2>>> of(p.sphere.size());
+    for (const auto& f : facets) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            of[f[c]].push_back({f[(c + 1) % 3], f[(c + 2) % 3]});
+        }
+    }
+    p.offset.push_back(0);
+    for (const auto& list : of) {
+        p.others.insert(p.others.end(), list.begin(), list.end());
+        p.offset.push_back(static_cast<std::uint32_t>(p.others.size()));
+    }
+    p.force.resize(p.sphere.size());
+    const double net = net_area(spheres, p);
+    p.scale = net > 0.0 ? surface / net : 1.0;
+    return p;
+}
+
+double net_area(const Spheres& spheres, const Pressure& p) {
+    double sum = 0.0;
+    for (std::uint32_t k = 0; k < p.sphere.size(); ++k) {
+        const Vec3 own = corner(spheres, p, k);
+        for (auto e = p.offset[k]; e < p.offset[k + 1]; ++e) {
+            sum += (corner(spheres, p, p.others[e][0]) - own).cross(corner(spheres, p, p.others[e][1]) - own).norm() / 6.0;
+        }
+    }
+    return sum;
+}
+
 double pressure_forces(const Spheres& spheres, Pressure& p, const SphereBlock& block, double dt, Loads& loads) {
     double work = 0.0;
     const ListedRange range = listed_in(p.sphere, block);
     for (std::size_t k = range.begin; k < range.end; ++k) {
         const auto s = static_cast<std::size_t>(p.sphere[k]);
-        Vec3 normal = p.normal.at(k);
-        if (p.radial) {
-            const Vec3 out(spheres.position.x[s], spheres.position.y[s], 0.0);
-            const double r = out.norm();
-            normal = r > 0.0 ? Vec3(out / r) : normal;
-        }
-        const Vec3 force = -p.value * p.area[k] * normal;
+        const Vec3 force = -p.value * area_of(spheres, p, static_cast<std::uint32_t>(k));
         work += 0.5 * dt * (force + p.force.at(k)).dot(spheres.velocity.at(s));
         p.force.set(k, force);
         loads.add(s, force, Vec3::Zero());

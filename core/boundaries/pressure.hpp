@@ -1,6 +1,10 @@
 // A pressure on the surface of a bonded specimen: forces on its surface spheres (thesis 5.5.3).
+//
+// The surface is a net of triangles between the centres of the surface spheres, so that the pressure follows the specimen however it
+// deforms. As the net of a closed surface, or one closed by the platens, has no net area, the pressure pushes it nowhere.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/contacts/loads.hpp"
@@ -8,16 +12,26 @@
 
 namespace proveta {
 
-/// Pressure p on a set of spheres, each standing for a piece of the surface: F = -p A n. The pieces add up to the surface they stand for.
-/// Normals of a lateral surface follow the specimen as it deforms: they point from the axis (x = y = 0) to where the sphere is now.
+/// Triangle of a surface: positions in the list of surface spheres, counterclockwise seen from outside.
+using Facet = std::array<std::uint32_t, 3>;
+
+/// A pressure on a net of facets. Each facet's force -p A n, with its present area A and outward normal n, goes in thirds to its spheres.
 struct Pressure {
     double value = 0.0;               ///< Pa, positive presses inwards
     std::vector<std::int32_t> sphere; ///< ascending
-    std::vector<double> area;         ///< m2
-    VectorField normal;               ///< outward, at the start
-    bool radial = false;              ///< a cylinder's side: normals follow
-    VectorField force;                ///< of the last step, N
+    std::vector<double> raise;        ///< by which a sphere of the rim is lifted to where the surface ends, m; one a sphere
+    double scale = 1.0;               ///< true surface over that of the net at the start, because the centres lie below the surface
+    std::vector<std::uint32_t> offset;                   ///< of each sphere into `others`, and the end
+    std::vector<std::array<std::uint32_t, 2>> others;    ///< the other corners of its facets, in their order
+    VectorField force;                                   ///< of the last step, N
 };
+
+/// A pressure on the given facets. spheres: the model's, at the start; sphere, raise: as in Pressure; surface: true area of the net, m2.
+Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const std::vector<Facet>& facets,
+                       double surface);
+
+/// Sum of the areas of the net, unscaled, m2.
+double net_area(const Spheres& spheres, const Pressure& pressure);
 
 /// Adds the forces of the pressure on one block of spheres to the loads. `force` has one entry a sphere of the pressure. Returns the work
 /// done in the step of dt seconds, J.

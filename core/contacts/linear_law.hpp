@@ -15,7 +15,7 @@
 namespace proveta::linear {
 
 /// One contact's constants; mu may be infinite (no slip). With `tension` the normal spring acts both ways, apart as well as in contact:
-/// the oscillator of textbooks.
+/// the oscillator of textbooks; with both the contact is glued.
 template <class T> struct Parameters {
     T k_n; ///< N/m
     T k_t; ///< N/m
@@ -41,7 +41,9 @@ PROVETA_INLINE contact::Response<T> advance(const Parameters<T>& p, const T& ove
     r.friction_work = T(0.0);
     r.dashpot_work = 0.5 * (s.viscous + viscous) * approach;
     s.viscous = viscous;
-    const T limit = select(r.normal > T(0.0), p.mu * r.normal, T(0.0)); // an infinite mu still needs pressure
+    // An infinite mu still needs pressure, unless the contact may pull.
+    const T apart = p.tension ? select(p.mu > T(1e300), p.mu, T(0.0)) : T(0.0);
+    const T limit = select(r.normal > T(0.0), p.mu * r.normal, apart);
     contact::coulomb(p.k_t, p.c_t, limit, touching, dt, slip, s, r);
     return r;
 }

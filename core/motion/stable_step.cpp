@@ -218,8 +218,8 @@ void StepBound::each_block(const Spheres& s, const Bonds& bonds, const Contacts&
         }
         for (const auto& [p, e] : walls[k]) {
             const auto& platen = platens[p];
-            const double distance = (s.position.z[k] - platen.position) * platen.inward;
-            block.add(Vec3(0, 0, -platen.inward), stiffness_at(platen.law[e], platen.contact_distance[e] - distance + skin),
+            const auto foot = platen.foot(s.position.at(k));
+            block.add(-foot.normal, stiffness_at(platen.law[e], platen.contact_distance[e] - foot.distance + skin),
                       platen.contact_distance[e], 1.0);
             block.rolling += platen.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
         }

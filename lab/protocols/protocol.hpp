@@ -10,11 +10,16 @@
 
 #include "core/input/json.hpp"
 #include "core/model.hpp"
-#include "lab/rate_control.hpp"
+#include "lab/controls/control.hpp"
+#include "lab/failure_event.hpp"
+#include "lab/press.hpp"
 #include "reports/record/record.hpp"
 #include "specimens/specimen.hpp"
 
 namespace proveta {
+
+struct Deck;
+class Instruments;
 
 /// What a standard asks and what of it the test does.
 struct Standard {
@@ -35,16 +40,56 @@ struct ProtocolInfo {
 struct BenchView {
     const Model& model;
     const Shape& shape;
+    const Press& press;
+    const Instruments& instruments;
     double wave_speed;          ///< of a bar of the material, m/s
     const report::Table& curve; ///< samples so far
+
+    [[nodiscard]] double strain() const;       ///< in the sense of the test: closing, or parting, of the platens over their distance
+    [[nodiscard]] double stress() const;       ///< in the sense of the test: mean of both platens' force over the nominal area, Pa
+    [[nodiscard]] double girth_strain() const; ///< circumferential, positive when the specimen gets thinner
+    [[nodiscard]] double crossing() const { return press.length / wave_speed; } ///< time in which a wave crosses, s
 };
 
-/// Parts 2 and 3: a piece of the test with its control. Times in s since the stage began.
+/// Parts 2 and 3: a piece of the test with its control.
 struct Stage {
+    enum class Kind {
+        preparing, ///< before the loading proper: stresses that the test starts from
+        loading,   ///< the test itself: stop rules hold, results are taken from it
+        cycling    ///< off the envelope, unloading or reloading
+    };
+
     std::string name;
-    std::function<std::vector<double>(const BenchView&, double time)> speeds; ///< of each platen, m/s
-    std::function<bool(const BenchView&, double time)> finished;              ///< asked at samples; the last stage ends by stop rules
-    std::shared_ptr<RateControl> rate; ///< leads the speeds; it is shown the model and taken along step by step. Or null
+    Kind kind = Kind::loading;
+    double share = 1.0; ///< of the test's samples, all stages' adding up to about 1
+    std::shared_ptr<Control> control;
+    std::function<double(const BenchView&)> done; ///< share of the stage that is done; at 1 it is over
+};
+
+/// What a test has measured.
+struct Measured {
+    const report::Table& curve;
+    const report::Table& energy;
+    const std::vector<FailureEvent>& events;
+    const Shape& shape;
+    const Press& press;
+};
+
+/// One curve of a plot: columns of the curve, or of the energies, and how they are shown.
+struct PlotCurve {
+    std::string x, y;
+    std::string name;
+    std::string colour;
+    bool to_peak = false; ///< gauges no longer tell the material's strain once cracks run through them
+};
+
+/// A plot of the report.
+struct PlotSpec {
+    std::string title;
+    std::string x_title, y_title;
+    double x_scale = 1.0, y_scale = 1.0; ///< from SI to the titles' units, and sign
+    std::vector<PlotCurve> curves;
+    bool mark_peak = false; ///< of the first curve
 };
 
 class Protocol {
@@ -54,25 +99,25 @@ class Protocol {
     /// Part 1.
     [[nodiscard]] virtual ProtocolInfo about() const = 0;
 
+    /// The specimen that the standard asks for, where a deck says nothing else.
+    virtual void suggest(SpecimenRecipe&) const {}
     /// The "loading" section.
     virtual void declare_loading(input::Visitor& v) = 0;
-    /// What loading and specimen contradict.
-    virtual void check(const SpecimenRecipe& recipe, const std::string& source, const std::string& path,
-                       input::Problems& problems) const = 0;
+    /// What the deck's parts contradict.
+    virtual void check(const Deck& deck, input::Problems& problems) const = 0;
 
-    /// Boundaries for the specimen.
-    [[nodiscard]] virtual std::vector<Platen> platens(const Spheres& spheres, const Shape& shape) const = 0;
-    /// Part 2.
-    /// pace: factor on all speeds, for a check that they do not matter.
+    /// The machine around the specimen.
+    [[nodiscard]] virtual Press press(const Spheres& spheres, const Shape& shape) const = 0;
+    /// Parts 2 and 3. pace: factor on all speeds, for a check that they do not matter.
     [[nodiscard]] virtual std::vector<Stage> stages(const BenchView& bench, double pace) const = 0;
     /// True when the test is to be run again at half the rate.
     [[nodiscard]] virtual bool checks_rate() const { return false; }
-    /// Nominal axial strain that the samples are spread over.
-    [[nodiscard]] virtual double strain_range() const = 0;
-    /// Part 4: why the test is over, asked at every sample.
+    /// Part 4: why the test is over, asked at every sample of a loading stage.
     [[nodiscard]] virtual std::optional<std::string> stop(const BenchView& bench) const = 0;
     /// Part 5.
-    [[nodiscard]] virtual std::vector<report::Scalar> results(const report::Table& curve, const report::Table& energy) const = 0;
+    [[nodiscard]] virtual std::vector<report::Scalar> results(const Measured& measured) const = 0;
+    /// What the report draws, before failed bonds and energies.
+    [[nodiscard]] virtual std::vector<PlotSpec> plots() const = 0;
 };
 
 inline void declare(input::Visitor& v, Protocol& protocol) { protocol.declare_loading(v); }

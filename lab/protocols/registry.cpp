@@ -2,16 +2,24 @@
 
 namespace proveta {
 
-std::unique_ptr<Protocol> make_ucs();
+// One line a test: X(name), made by make_name() in a file of its own beside this one.
+#define PROVETA_TESTS(X)                                                                                                                   \
+    X(ucs)                                                                                                                                 \
+    X(triaxial)                                                                                                                            \
+    X(brazilian)                                                                                                                           \
+    X(oedometric)                                                                                                                          \
+    X(hydrostatic)                                                                                                                         \
+    X(direct_tension)
+
+#define PROVETA_DECLARE(name) std::unique_ptr<Protocol> make_##name();
+PROVETA_TESTS(PROVETA_DECLARE)
 
 namespace {
 
 using Maker = std::unique_ptr<Protocol> (*)();
 
-// One line a test.
-constexpr Maker makers[] = {
-    make_ucs,
-};
+#define PROVETA_LIST(name) make_##name,
+constexpr Maker makers[] = {PROVETA_TESTS(PROVETA_LIST)};
 
 } // namespace
 

@@ -4,7 +4,7 @@
 
 #include "core/averaged_stress.hpp"
 #include "lab/bench.hpp"
-#include "lab/stages.hpp"
+#include "lab/controls/closing.hpp"
 #include "lab/surface_pressure.hpp"
 #include "lab/verification/cases.hpp"
 

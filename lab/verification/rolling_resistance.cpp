@@ -42,7 +42,7 @@ Roll roll(ContactLaw law, const char* name, const char* colour) {
     numerics.damping = {0.0, 0.0};
     numerics.gravity = {0, 0, -gravity};
     numerics.time_step = 2e-5;
-    const std::vector<Platen> floor{make_wall(s, 0.0, 1.0, m, 0.6)};
+    const std::vector<Platen> floor{make_wall(s, {}, 0.0, m, 0.6)};
     Model model(s, {m}, none, weight, floor, numerics);
     out.curve = {name, {}, {}, colour};
     const int steps = 45000; // 0.9 s

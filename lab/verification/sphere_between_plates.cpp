@@ -34,7 +34,7 @@ Swing swing(Scheme scheme, double dt, int steps) {
     s.add({0, 0, 0.5 * gap + amplitude}, radius, density);
     std::vector<double> weight;
     Bonds none = make_bonds(s, {m}, {}, {0}, weight);
-    std::vector<Platen> plates{make_wall(s, 0.0, 1.0, m, 0.0), make_wall(s, gap, -1.0, m, 0.0)};
+    std::vector<Platen> plates{make_wall(s, {}, 0.0, m, 0.0), make_wall(s, {.inward = -1.0}, gap, m, 0.0)};
     Numerics numerics;
     numerics.time_step = dt;
     numerics.scheme = scheme;

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "lab/rate_control.hpp"
+#include "lab/controls/rate_control.hpp"
 
 using namespace proveta;
 

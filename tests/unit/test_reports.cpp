@@ -2,7 +2,7 @@
 
 #include "lab/derived.hpp"
 #include "lab/quasi_static.hpp"
-#include "lab/stages.hpp"
+#include "lab/controls/closing.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
 #include "reports/svg.hpp"

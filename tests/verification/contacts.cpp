@@ -43,7 +43,7 @@ Model heap(ContactLaw law, int count, double safety = 0.9) {
     }
     std::vector<double> weight;
     Bonds none = make_bonds(s, materials, {}, std::vector<std::uint8_t>(s.size(), 0), weight);
-    const std::vector<Platen> floor{make_wall(s, 0.0, 1.0, materials[0], 0.4)};
+    const std::vector<Platen> floor{make_wall(s, {}, 0.0, materials[0], 0.4)};
     Numerics numerics;
     numerics.damping = {0.0, 0.0};
     numerics.gravity = {0, 0, -9.81};

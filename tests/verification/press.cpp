@@ -39,7 +39,7 @@ TEST_CASE("column: spheres in a row between platens are springs in series") {
     std::vector<double> weight;
     Bonds bonds = make_bonds(s, {tall}, pairs, std::vector<std::uint8_t>(n, 1), weight);
     const double area = std::numbers::pi * r * r;
-    std::vector<Platen> platens{make_platen(s, 0.0, 1.0, 0.0, area, 0.1), make_platen(s, 2 * r * n, -1.0, 0.0, area, 0.1)};
+    std::vector<Platen> platens{make_platen(s, {}, 0.0, 0.0, area, 0.1), make_platen(s, {.inward = -1.0}, 2 * r * n, 0.0, area, 0.1)};
     Model model(s, {tall}, bonds, weight, platens, {});
     const double speed = 1e-3;
     for (int k = 0; k < 20000; ++k) {

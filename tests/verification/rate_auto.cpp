@@ -22,7 +22,7 @@ Tested tested(const std::string& more, const Specimen& specimen) {
     Bench bench = set_up(deck, specimen);
     const TestData data = run_protocol(deck, bench, {[](const TestData&, double) {}, [] {}, [] { return false; }});
     Tested out;
-    for (const auto& r : deck.protocol->results(data.curve, data.energy)) {
+    for (const auto& r : deck.protocol->results({data.curve, data.energy, data.events, bench.specimen.shape, bench.press})) {
         out.strength = r.name == "strength" ? r.value.value() : out.strength;
         out.modulus = r.name == "young_modulus" ? r.value.value() : out.modulus;
     }

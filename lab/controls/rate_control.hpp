@@ -49,7 +49,13 @@ class RateControl {
     /// pace: factor on all speeds; 0.5 for the half-rate check.
     RateControl(const RateScale& scale, double pace);
 
-    /// Closing speed for the next step, m/s, never negative.
+    /// The platens move at `speed` m/s, perhaps backwards: go on from there.
+    void start(double speed) {
+        speed_ = speed / scale_.wave_speed;
+        gain_ = 0.0;
+    }
+
+    /// Closing speed for the next step, m/s, never negative once it has been positive.
     [[nodiscard]] double rate() const { return speed_ * scale_.wave_speed; }
     /// True when the step after `steps` steps is one to look at.
     [[nodiscard]] bool looks_at(std::int64_t steps) const { return steps % scale_.steps_a_look == 0; }

@@ -1,4 +1,4 @@
-#include "lab/rate_control.hpp"
+#include "lab/controls/rate_control.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ void RateControl::advance(double dt) {
     const double most = most_gain * pace_ * std::max(strain_, 0.25 * scale_.first_damage);
     const double wanted = std::clamp(aim_ - speed_, -most, most);
     gain_ += (wanted - gain_) * std::min(1.0, 2.0 * crossings); // the lag: half a crossing
-    speed_ = std::max(0.0, speed_ + gain_ * crossings);
+    speed_ = std::max(std::min(speed_, 0.0), speed_ + gain_ * crossings);
 }
 
 } // namespace proveta

@@ -1,0 +1,31 @@
+// Presses and derived results that compression tests along the axis share.
+#pragma once
+
+#include <vector>
+
+#include "core/particles/spheres.hpp"
+#include "lab/derived.hpp"
+#include "lab/protocols/protocol.hpp"
+
+namespace proveta {
+
+/// Two platens across the axis that cap the specimen's ends. stiffness: factor on their contacts' stiffness.
+Press axial_press(const Spheres& spheres, const Shape& shape, double friction, double stiffness);
+
+/// E, nu and its relatives from the gauges between shares of the peak deviator, toe of the curve, softening: ASTM D7012, EN 12390-13.
+std::vector<report::Scalar> elastic_results(const Loading& loading);
+std::vector<report::Scalar> softening_results(const Loading& loading);
+
+/// Modulus of each unloading: secant from where the platens turned back to where they turned again.
+std::vector<report::Scalar> cycle_results(const report::Table& curve, double sense);
+
+/// Work of the platens and of the pressure, and what cracking took of it.
+std::vector<report::Scalar> energy_results(const report::Table& energy);
+
+/// Peak of a list if the list has fallen 5 % below it since, or else empty.
+std::optional<double> peak_if_passed(const std::vector<double>& y);
+
+/// Stress over strain by platens, gauge and girth, the peak marked.
+PlotSpec stress_strain_plot(const std::string& title, const std::string& stress);
+
+} // namespace proveta

@@ -1,0 +1,50 @@
+#include "lab/controls/closing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lab/protocols/protocol.hpp"
+
+namespace proveta {
+
+double smooth_start(double time, double ramp) {
+    return time >= ramp ? 1.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * std::max(time, 0.0) / ramp));
+}
+
+void SteadyClosing::begin(const BenchView& bench, const Drive& last) {
+    begun_ = bench.model.time();
+    from_ = last.closing;
+}
+
+Drive SteadyClosing::drive(const BenchView& bench) {
+    return {from_ + (speed_ - from_) * smooth_start(bench.model.time() - begun_, ramp_), pressure_};
+}
+
+void LedClosing::begin(const BenchView&, const Drive& last) { rate_.start(last.closing); }
+
+Drive LedClosing::drive(const BenchView&) { return {rate_.rate(), pressure_}; }
+
+bool LedClosing::looks(const BenchView& bench) const { return rate_.looks_at(bench.model.steps()); }
+
+void LedClosing::stepped(const BenchView& bench, bool measured) {
+    if (measured) {
+        const Ledger& l = bench.model.ledger();
+        rate_.observe(
+            {bench.strain(), l.platens + l.pressure, l.damage, l.kinetic, l.elastic, bench.model.measures().unbalanced_ratio});
+    }
+    rate_.advance(bench.model.dt());
+}
+
+void Unloading::begin(const BenchView& bench, const Drive& last) {
+    begun_ = bench.model.time();
+    from_ = last.closing;
+    to_ = speed_ > 0.0 ? -speed_ : -0.05 * pace_ * bench.strain() * bench.wave_speed;
+    ramp_ = 5.0 * bench.crossing();
+}
+
+Drive Unloading::drive(const BenchView& bench) {
+    return {from_ + (to_ - from_) * smooth_start(bench.model.time() - begun_, ramp_), pressure_};
+}
+
+} // namespace proveta

@@ -1,0 +1,62 @@
+// Platens that close at a steady speed, at one that the test leads itself, or go back to unload.
+#pragma once
+
+#include <memory>
+
+#include "lab/controls/control.hpp"
+#include "lab/controls/rate_control.hpp"
+
+namespace proveta {
+
+/// Share of a change that has been made: from 0 to 1 along half a cosine during `ramp` seconds: no jump in velocity or acceleration, so
+/// that no stress wave starts.
+double smooth_start(double time, double ramp);
+
+/// A steady speed in m/s, reached smoothly during `ramp` seconds from whatever the press did before; at a constant pressure.
+class SteadyClosing : public Control {
+  public:
+    SteadyClosing(double speed, double ramp, double pressure) : speed_(speed), ramp_(ramp), pressure_(pressure) {}
+
+    void begin(const BenchView& bench, const Drive& last) override;
+    [[nodiscard]] Drive drive(const BenchView& bench) override;
+
+  private:
+    double speed_, ramp_, pressure_;
+    double begun_ = 0.0;
+    double from_ = 0.0;
+};
+
+/// The speed that `RateControl` chooses, at a constant pressure. One object may lead several stages of a test, which then share what it has
+/// learnt.
+class LedClosing : public Control {
+  public:
+    LedClosing(const RateScale& scale, double pace, double pressure) : rate_(scale, pace), pressure_(pressure) {}
+
+    void begin(const BenchView& bench, const Drive& last) override;
+    [[nodiscard]] Drive drive(const BenchView& bench) override;
+    [[nodiscard]] bool looks(const BenchView& bench) const override;
+    void stepped(const BenchView& bench, bool measured) override;
+
+  private:
+    RateControl rate_;
+    double pressure_;
+};
+
+/// The platens go back, at a steady speed in m/s or, with 0, at a twentieth of the strain per crossing of a wave: nothing breaks on
+/// unloading. pace: factor on the latter.
+class Unloading : public Control {
+  public:
+    Unloading(double speed, double pace, double pressure) : speed_(speed), pace_(pace), pressure_(pressure) {}
+
+    void begin(const BenchView& bench, const Drive& last) override;
+    [[nodiscard]] Drive drive(const BenchView& bench) override;
+
+  private:
+    double speed_, pace_, pressure_;
+    double begun_ = 0.0;
+    double from_ = 0.0;
+    double to_ = 0.0;
+    double ramp_ = 0.0;
+};
+
+} // namespace proveta

@@ -1,0 +1,67 @@
+#include "lab/controls/servo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/protocols/protocol.hpp"
+
+namespace proveta {
+
+namespace {
+
+// Gains per crossing of a wave. The specimen integrates the speed and answers after half a crossing: with a proportional gain of 0.4 the
+// loop keeps a phase margin of some 75 degrees, the integral, a tenth of it per crossing, costs 15 of them.
+constexpr double proportional = 0.4;
+constexpr double integral = 0.04;
+
+constexpr double girth_gain = 0.3;
+constexpr double girth_lag = 0.5; // crossings over which the speed follows what the loop asks for
+
+} // namespace
+
+void StressServo::begin(const BenchView& bench, const Drive&) {
+    begun_ = bench.model.time();
+    integral_ = 0.0;
+}
+
+Drive StressServo::drive(const BenchView& bench) {
+    const double time = bench.model.time() - begun_;
+    const double dt = bench.model.dt();
+    const double p = pressure_(time);
+    const double expected = settings_.compliance * (pressure_(time + dt) - p) / dt; // strain per s
+    const double error = p - bench.stress();
+    const double crossing = bench.crossing();
+    const double asked =
+        expected + (proportional * error + integral * integral_ / crossing) / (settings_.stiffness * crossing);
+    const double most = settings_.speed_limit / bench.press.length;
+    const double given = std::clamp(asked, -most, most);
+    if (given == asked || error * asked < 0.0) {
+        integral_ += error * dt;
+    }
+    return {given * bench.press.length, p};
+}
+
+void GirthServo::begin(const BenchView& bench, const Drive& last) {
+    begun_ = bench.model.time();
+    from_ = -bench.girth_strain();
+    speed_ = last.closing;
+    limit_ = std::fabs(last.closing);
+    if (rate_ <= 0.0) {
+        rate_ = lateral_ * limit_ / bench.press.length;
+    }
+    limit_ = std::max(limit_, rate_ * bench.press.length / lateral_);
+}
+
+Drive GirthServo::drive(const BenchView& bench) {
+    const double crossing = bench.crossing();
+    const double most = limit_ * lateral_ / bench.press.length * crossing / girth_gain; // that the limit answers to: the aim waits there
+    double behind = from_ + rate_ * (bench.model.time() - begun_) + bench.girth_strain();
+    from_ -= std::max(0.0, behind - most);
+    behind = std::min(behind, most);
+    const double asked = (rate_ + girth_gain * behind / crossing) * bench.press.length / lateral_;
+    const double given = std::clamp(asked, -limit_, limit_);
+    speed_ += (given - speed_) * std::min(1.0, bench.model.dt() / (girth_lag * crossing));
+    return {speed_, pressure_};
+}
+
+} // namespace proveta

@@ -1,0 +1,54 @@
+// Platens that follow a stress, and platens that follow the girth.
+#pragma once
+
+#include <functional>
+
+#include "lab/controls/control.hpp"
+
+namespace proveta {
+
+/// Closed loop on the axial stress: the side is under the pressure p(t) and the platens move so that the mean of their stresses is p(t)
+/// too. The speed is what an elastic specimen would ask for, plus a proportional and an integral part of the error; both are scaled by
+/// the time that a wave takes to cross the specimen, within which no loop can know what it did. The speed is limited, and at the limit
+/// the integral waits (no wind-up).
+class StressServo : public Control {
+  public:
+    struct Settings {
+        double compliance = 0.0;  ///< axial strain per pressure all round, 1/Pa
+        double stiffness = 0.0;   ///< axial stress per axial strain, Pa
+        double speed_limit = 0.0; ///< m/s
+    };
+
+    /// pressure: p in Pa over the seconds since the stage began.
+    StressServo(std::function<double(double time)> pressure, const Settings& settings) : pressure_(std::move(pressure)), settings_(settings) {}
+
+    void begin(const BenchView& bench, const Drive& last) override;
+    [[nodiscard]] Drive drive(const BenchView& bench) override;
+
+  private:
+    std::function<double(double)> pressure_;
+    Settings settings_;
+    double begun_ = 0.0;
+    double integral_ = 0.0; // of the error, Pa s
+};
+
+/// Closed loop on the girth: the platens move, back if need be, so that the circumferential gauge grows at a steady rate. This is what keeps
+/// a brittle specimen from running away past its peak, where no steady closing is stable.
+class GirthServo : public Control {
+  public:
+    /// rate: growth of the girth, strain per s; 0: the one that the stage begins with. lateral: circumferential over axial strain that the loop
+    /// reckons with; pressure on the side, Pa.
+    GirthServo(double rate, double lateral, double pressure) : rate_(rate), lateral_(lateral), pressure_(pressure) {}
+
+    void begin(const BenchView& bench, const Drive& last) override;
+    [[nodiscard]] Drive drive(const BenchView& bench) override;
+
+  private:
+    double rate_, lateral_, pressure_;
+    double begun_ = 0.0;
+    double from_ = 0.0;  // girth then
+    double limit_ = 0.0; // of the closing speed, m/s
+    double speed_ = 0.0; // m/s
+};
+
+} // namespace proveta

@@ -1,0 +1,146 @@
+// Equal pressure on the whole surface.
+#include <algorithm>
+#include <cmath>
+
+#include "lab/axial_results.hpp"
+#include "lab/confinement.hpp"
+#include "lab/controls/closing.hpp"
+#include "lab/deck.hpp"
+#include "lab/stages.hpp"
+#include "lab/surface_pressure.hpp"
+
+namespace proveta {
+
+namespace {
+
+constexpr double crush_offset = 0.0002;
+constexpr double crossings = 400.0; // of a wave: slow enough for crushing to keep up
+
+class Hydrostatic : public Protocol {
+  public:
+    // 1. The standard: what it mimics and where it cannot.
+    [[nodiscard]] ProtocolInfo about() const override {
+        return {"hydrostatic",
+                "Hydrostatic compression",
+                "A cylinder or prism is brought under an equal pressure on its whole surface: on the side by forces on the surface spheres, on the "
+                "ends by platens that a servo holds at the same stress.",
+                {{"no standard", "pressure against volumetric strain, as in the isotropic stage of a triaxial cell; bulk modulus, crush pressure",
+                  "the ends are pressed by smooth rigid platens, not by a fluid; no jacket"}}};
+    }
+
+    void declare_loading(input::Visitor& v) override {
+        v.number("pressure", pressure_, input::Unit::pressure, {0.0, 1e10, true, false}, "to which the pressure is brought up");
+        v.number_or_word("ramp", ramp_, {{"auto", "the time in which a wave crosses the specimen four hundred times"}}, input::Unit::time,
+                         input::above(0), "time in which it is brought up, steadily after a smooth start");
+        v.number("servo_speed_limit", speed_limit_, input::Unit::velocity, {0.0, 100.0, true, false},
+                 "largest closing speed of the platens while they follow the pressure");
+        declare_friction(v, friction_);
+        v.refused("confining_pressure", "the pressure is the same all round: \"pressure\"");
+        v.refused("rate", "the pressure leads: see \"ramp\"");
+        v.refused("strips", "loading strips belong to a brazilian test");
+    }
+
+    void check(const Deck& deck, input::Problems& problems) const override {
+        check_sides(deck, problems);
+        Confinement c;
+        c.pressure = pressure_;
+        c.ramp = ramp_;
+        c.speed_limit = speed_limit_;
+        input::Problems found;
+        check_confinement(c, deck, found);
+        for (auto& problem : found) {
+            problem.path = "/loading/ramp";
+            problems.push_back(problem);
+        }
+    }
+
+    // 2. Stages and 3. controls: one ramp of pressure, the platens on a servo.
+    [[nodiscard]] Press press(const Spheres& spheres, const Shape& shape) const override {
+        Press press = axial_press(spheres, shape, friction_value(friction_), 1.0);
+        press.pressures = {lateral_pressure(shape, spheres)};
+        return press;
+    }
+
+    [[nodiscard]] std::vector<Stage> stages(const BenchView& bench, double pace) const override {
+        const double ramp = (ramp_.word.empty() ? ramp_.number : crossings * bench.crossing()) / pace;
+        const double start = 0.1 * ramp;
+        // Steady after a tenth of the time: the integral of a smooth start, so that the pressure itself starts without a kink.
+        const auto pressure = [p = pressure_, ramp, start](double time) {
+            const double steady = p / (ramp - 0.5 * start);
+            if (time >= start) {
+                return steady * (time - 0.5 * start);
+            }
+            const double x = time / start;
+            return steady * start * 0.5 * (x - std::sin(pi * x) / pi);
+        };
+        Stage stage = isotropic_stage(bench, pressure_, ramp, speed_limit_, 1.0, 1.0);
+        stage.name = "loading";
+        stage.kind = Stage::Kind::loading;
+        stage.control = servo(bench, pressure, speed_limit_);
+        return {stage};
+    }
+
+    // 4. Measurements are the bench's; the ramp ends the test.
+    [[nodiscard]] std::optional<std::string> stop(const BenchView&) const override { return std::nullopt; }
+
+    // 5. Derived results.
+    [[nodiscard]] std::vector<report::Scalar> results(const Measured& m) const override {
+        const Loading l = loading_of(m.curve, m.press.sense);
+        std::vector<double> pressure;
+        std::vector<double> lateral;
+        for (const auto row : l.row) {
+            pressure.push_back((l.stress[pressure.size()] + 2.0 * m.curve.rows[row][m.curve.column("lateral_stress")]) / 3.0);
+            lateral.push_back(m.curve.rows[row][m.curve.column("lateral_stress")]);
+        }
+        // The elastic part: before the first bonds yield, at most a fifth of the pressure.
+        const auto line = line_between(l.volume, pressure, 0.05, 0.2);
+        const auto axial = slope_between(l.gauge, pressure, 0.05, 0.2);
+        const auto side = slope_between(l.girth, pressure, 0.05, 0.2);
+        const auto crush = line ? offset_yield(l.volume, pressure, *line, crush_offset) : std::nullopt;
+        double worst = 0.0;
+        for (std::size_t k = 0; k < l.stress.size(); ++k) {
+            if (lateral[k] > 0.1 * pressure_) {
+                worst = std::max(worst, std::fabs(l.stress[k] / lateral[k] - 1.0));
+            }
+        }
+        std::vector<report::Scalar> out{
+            {"bulk_modulus", "Bulk modulus", line ? std::optional(line->slope) : std::nullopt, "Pa",
+             "slope of mean pressure over volumetric strain (middle gauge and girth), 5 % to 20 % of the largest pressure"},
+            {"strain_ratio", "Lateral over axial strain", axial && side ? std::optional(*axial / *side) : std::nullopt, "",
+             "circumferential over middle gauge strain there; isotropic: 1"},
+            {"crush_pressure", "Crush pressure", crush, "Pa",
+             "where the curve leaves the elastic line, shifted by 0.02 % of volumetric strain (offset yield)"},
+            {"volumetric_strain_at_end", "Volumetric strain at the end", l.volume.empty() ? std::nullopt : std::optional(l.volume.back()), "",
+             "middle gauge and girth"},
+            {"servo_error", "Servo, largest error", worst, "", "axial over lateral stress less 1, from a tenth of the pressure on"}};
+        for (auto&& more : {energy_results(m.energy)}) {
+            out.insert(out.end(), more.begin(), more.end());
+        }
+        return out;
+    }
+
+    [[nodiscard]] std::vector<PlotSpec> plots() const override {
+        return {{"Pressure against strains.",
+                 "strain [%]",
+                 "axial stress [MPa]",
+                 100.0,
+                 1e-6,
+                 {{"volumetric_strain", "axial_stress", "volumetric", "#1f4e79"},
+                  {"gauge_axial_strain", "axial_stress", "axial, middle gauge", "#1e7b46"},
+                  {"circumferential_strain", "axial_stress", "circumferential", "#b9770e"}}}};
+    }
+
+  private:
+    static constexpr double pi = 3.14159265358979323846;
+
+    double pressure_ = 100e6;
+    input::NumberOrWord ramp_{0.0, "auto"};
+    double speed_limit_ = 1.0;
+    input::NumberOrWord friction_{0.0, "lubricated"};
+};
+
+} // namespace
+
+std::unique_ptr<Protocol> make_hydrostatic() { return std::make_unique<Hydrostatic>(); }
+
+} // namespace proveta
