@@ -120,14 +120,33 @@ void Model::search() {
     searched_at_ = spheres.position;
     travel_ = 0.0;
     ++searches_;
-    // What was stable stays the bound, unless new contacts have made the network too stiff for the step.
+    keep_stable();
+}
+
+// What was stable stays the bound, unless new contacts have made the network too stiff for the step. Then the spheres that they press on get
+// more mass, as far as that is allowed, and only beyond that the step is shortened.
+void Model::keep_stable() {
     const double share = damping_share(numerics_.damping);
-    const double lowest = share * bound_.limit(spheres, bonds, contacts, platens, skin_, searches_ == 1 ? 1e300 : dt_ / share);
-    if (searches_ == 1 || lowest < dt_) {
-        stable_ = lowest;
+    if (searches_ == 1) {
+        stable_ = share * bound_.limit(spheres, bonds, contacts, platens, skin_);
+        return;
     }
-    if (dt_ > stable_ && numerics_.refuse_unstable) {
-        dt_ = numerics_.safety * stable_;
+    const double lowest = share * bound_.limit(spheres, bonds, contacts, platens, skin_, dt_ / share);
+    if (lowest >= dt_) {
+        return;
+    }
+    stable_ = lowest;
+    if (numerics_.refuse_unstable) {
+        if (!scaling_.mass.empty()) {
+            const double whole = std::accumulate(scaling_.mass.begin(), scaling_.mass.end(), 0.0);
+            const double left = (numerics_.mass_scaling - scaling_.added_later) * whole;
+            const double wanted = dt_ / (numerics_.safety * share);
+            const Easing eased = ease_step(spheres, bonds, materials, weight_, contacts, platens, skin_, wanted, left, bound_);
+            scaling_.added_later += eased.added / whole;
+            ledger_.background += eased.energy;
+            stable_ = share * eased.dt;
+        }
+        dt_ = std::min(dt_, numerics_.safety * stable_);
     }
 }
 

@@ -27,7 +27,7 @@ struct Numerics {
     std::optional<double> time_step; ///< s; empty: safety times the stable step
     double safety = 0.9;             ///< fraction of the bound on the stable step
     double skin = 0.1;               ///< of the neighbour lists, over the mean radius
-    double mass_scaling = 0.0;       ///< largest mass that may be added to spheres that limit the step, over the specimen's
+    double mass_scaling = 0.0;       ///< largest mass that may be added to spheres that limit the step, over the specimen's; as much again later on
     BackgroundDamping damping;
     Scheme scheme = Scheme::velocity_verlet;
     Vec3 gravity = Vec3::Zero(); ///< m/s2
@@ -114,6 +114,7 @@ class Model {
     };
 
     void search();
+    void keep_stable();
     void arrange();
     void forces(double elapsed, bool measure);
     void block_forces(std::size_t block, const BondView& view, double elapsed, bool measure);
@@ -160,6 +161,9 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     field("position", spheres.position);
     field("velocity", spheres.velocity);
     field("spin", spheres.spin);
+    visit("mass", spheres.mass);
+    visit("inertia", spheres.inertia);
+    visit("mass_added_later", scaling_.added_later);
     field("searched_at", searched_at_);
     field("bond_slip", bonds.slip);
     visit("bond_plastic", bonds.plastic);

@@ -222,29 +222,22 @@ ElasticGuess elastic_guess(const Model& model) {
     return {0.71 * m.normal_factor * m.young_modulus, 0.2};
 }
 
-std::shared_ptr<Control> servo(const BenchView& bench, std::function<double(double time)> pressure, double speed_limit) {
+StressServo::Settings servo_settings(const BenchView& bench, double speed_limit) {
     const ElasticGuess e = elastic_guess(bench.model);
-    return std::make_shared<StressServo>(std::move(pressure),
-                                         StressServo::Settings{(1.0 - 2.0 * e.poisson) / e.young, e.young, speed_limit});
+    return {(1.0 - 2.0 * e.poisson) / e.young, e.young, speed_limit};
 }
 
 Stage isotropic_stage(const BenchView& bench, double pressure, double ramp, double speed_limit, double share, double pace) {
     const double duration = ramp / pace;
     const auto p = [=](double time) { return pressure * smooth_start(time, duration); };
-    const double begun = bench.model.time();
-    return {"isotropic", Stage::Kind::preparing, share, servo(bench, p, speed_limit),
-            [=](const BenchView& b) { return (b.model.time() - begun) / duration; }};
+    const auto control = std::make_shared<StressServo>(p, servo_settings(bench, speed_limit));
+    return {"isotropic", Stage::Kind::preparing, share, control, [=](const BenchView&) { return control->clock() / duration; }};
 }
 
 Stage hold_stage(const BenchView& bench, double pressure, double speed_limit, double share) {
-    const auto begun = std::make_shared<std::optional<double>>();
     const double duration = 10.0 * bench.crossing();
-    return {"hold", Stage::Kind::preparing, share, servo(bench, [=](double) { return pressure; }, speed_limit), [=](const BenchView& b) {
-                if (!*begun) {
-                    *begun = b.model.time();
-                }
-                return (b.model.time() - **begun) / duration;
-            }};
+    const auto control = std::make_shared<StressServo>([=](double) { return pressure; }, servo_settings(bench, speed_limit));
+    return {"hold", Stage::Kind::preparing, share, control, [=](const BenchView&) { return control->clock() / duration; }};
 }
 
 } // namespace proveta

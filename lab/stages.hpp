@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/input/declare.hpp"
+#include "lab/controls/servo.hpp"
 #include "lab/protocols/protocol.hpp"
 
 namespace proveta {
@@ -76,10 +77,11 @@ std::vector<Stage> axial_stages(const AxialLoading& loading, const BenchView& be
 /// Lowest strain at which a bond of the model may fail in tension when it is pulled alone; infinite when none can.
 double lowest_tensile_strain(const Bonds& bonds);
 
+/// What a servo of the platens' stress needs to know of the specimen.
+StressServo::Settings servo_settings(const BenchView& bench, double speed_limit);
+
 /// A stage under a stress that grows on all sides from zero to `pressure` along half a cosine during `ramp` seconds, the platens led by a servo.
 Stage isotropic_stage(const BenchView& bench, double pressure, double ramp, double speed_limit, double share, double pace);
-/// A control that holds the platens at the pressure p(t) on the side.
-std::shared_ptr<Control> servo(const BenchView& bench, std::function<double(double time)> pressure, double speed_limit);
 /// The same stress held for some crossings of a wave.
 Stage hold_stage(const BenchView& bench, double pressure, double speed_limit, double share);
 

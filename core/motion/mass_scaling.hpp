@@ -14,6 +14,7 @@ struct MassScaling {
     double largest_factor = 1.0; ///< on mass and inertia of one sphere
     double step_before = 0.0;    ///< bound on the stable step with true masses, s
     double step_after = 0.0;     ///< with scaled ones, s
+    double added_later = 0.0;    ///< mass added in the course of the calculation, over the true mass
     std::vector<double> mass;    ///< true mass of each sphere, kg; empty: nothing was scaled
 };
 
@@ -25,5 +26,17 @@ struct MassScaling {
 /// share of 0 changes nothing. Call it once, on true masses.
 MassScaling scale_masses(Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
                          Contacts& contacts, std::vector<Platen>& platens, double skin, double share, StepBound& bound);
+
+/// What `ease_step` did.
+struct Easing {
+    double dt = 0.0;     ///< step that is stable now, at most the one asked for, s
+    double added = 0.0;  ///< mass, kg
+    double energy = 0.0; ///< kinetic energy that the heavier spheres lost by keeping their momentum, J
+};
+
+/// In the course of a calculation: makes spheres that new contacts have made unstable at a step of dt seconds as heavy as that step asks
+/// for, momentum kept. With more to add than `allowed` kg the step is shortened as far as that reaches.
+Easing ease_step(Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
+                 Contacts& contacts, std::vector<Platen>& platens, double skin, double dt, double allowed, const StepBound& bound);
 
 } // namespace proveta

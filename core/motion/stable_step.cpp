@@ -251,6 +251,23 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
     return lowest.load();
 }
 
+std::vector<StepBound::Offender> StepBound::offenders(const Spheres& s, const Bonds& bonds, const Contacts& contacts,
+                                                      const std::vector<Platen>& platens, double skin, double dt) const {
+    std::vector<double> factor(s.size(), 0.0);
+    each_block(s, bonds, contacts, platens, skin, [&](std::size_t k, const Block& block) {
+        if (block.demand_at_most(s.mass[k], s.inertia[k]).factor(dt) > 1.0 && !block.stable_at(dt, s.mass[k], s.inertia[k])) {
+            factor[k] = block.demand(s.mass[k], s.inertia[k]).factor(dt);
+        }
+    });
+    std::vector<Offender> out;
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        if (factor[k] > 1.0) {
+            out.push_back({static_cast<std::uint32_t>(k), factor[k]});
+        }
+    }
+    return out;
+}
+
 double largest_eigenvalue(const Spheres& s, const Bonds& bonds, int iterations) {
     const auto k_t = shear_stiffness(bonds);
     using Vec = Eigen::VectorXd;

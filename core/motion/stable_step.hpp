@@ -48,6 +48,14 @@ class StepBound {
     [[nodiscard]] std::vector<SphereDemand> demands(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
                                                     const std::vector<Platen>& platens, double skin = 0.0) const;
 
+    /// The spheres that are not stable at a step of dt seconds, ascending, and the factor on mass and inertia at which each would be.
+    struct Offender {
+        std::uint32_t sphere;
+        double factor;
+    };
+    [[nodiscard]] std::vector<Offender> offenders(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
+                                                  const std::vector<Platen>& platens, double skin, double dt) const;
+
   private:
     template <class Use>
     void each_block(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens, double skin,

@@ -13,32 +13,36 @@ namespace {
 // loop keeps a phase margin of some 75 degrees, the integral, a tenth of it per crossing, costs 15 of them.
 constexpr double proportional = 0.4;
 constexpr double integral = 0.04;
+constexpr double memory = 2.0; // crossings over which the speed is averaged that the clock goes by
 
 constexpr double girth_gain = 0.3;
 constexpr double girth_lag = 0.5; // crossings over which the speed follows what the loop asks for
 
 } // namespace
 
-void StressServo::begin(const BenchView& bench, const Drive&) {
-    begun_ = bench.model.time();
+void StressServo::begin(const BenchView&, const Drive&) {
+    clock_ = 0.0;
+    speed_ = 0.0;
     integral_ = 0.0;
 }
 
 Drive StressServo::drive(const BenchView& bench) {
-    const double time = bench.model.time() - begun_;
     const double dt = bench.model.dt();
-    const double p = pressure_(time);
-    const double expected = settings_.compliance * (pressure_(time + dt) - p) / dt; // strain per s
-    const double error = p - bench.stress();
     const double crossing = bench.crossing();
-    const double asked =
-        expected + (proportional * error + integral * integral_ / crossing) / (settings_.stiffness * crossing);
+    const double pace = settings_.calm_speed > 0.0 ? std::min(1.0, settings_.calm_speed / std::max(speed_, 1e-300)) : 1.0;
+    const double p = pressure_(clock_);
+    const double expected = settings_.compliance * (pressure_(clock_ + pace * dt) - p) / dt; // strain per s
+    const double error = p - bench.stress();
+    const double asked = expected + (proportional * error + integral * integral_ / crossing) / (settings_.stiffness * crossing);
     const double most = settings_.speed_limit / bench.press.length;
     const double given = std::clamp(asked, -most, most);
     if (given == asked || error * asked < 0.0) {
         integral_ += error * dt;
     }
-    return {given * bench.press.length, p};
+    clock_ += pace * dt;
+    const double speed = given * bench.press.length;
+    speed_ += (speed - speed_) * std::min(1.0, dt / (memory * crossing));
+    return {speed, p};
 }
 
 void GirthServo::begin(const BenchView& bench, const Drive& last) {

@@ -10,25 +10,29 @@ namespace proveta {
 /// Closed loop on the axial stress: the side is under the pressure p(t) and the platens move so that the mean of their stresses is p(t)
 /// too. The speed is what an elastic specimen would ask for, plus a proportional and an integral part of the error; both are scaled by
 /// the time that a wave takes to cross the specimen, within which no loop can know what it did. The speed is limited, and at the limit
-/// the integral waits (no wind-up).
+/// the integral waits (no wind-up). Where the specimen yields and the platens would have to run, the clock of p slows down instead.
 class StressServo : public Control {
   public:
     struct Settings {
         double compliance = 0.0;  ///< axial strain per pressure all round, 1/Pa
         double stiffness = 0.0;   ///< axial stress per axial strain, Pa
         double speed_limit = 0.0; ///< m/s
+        double calm_speed = 0.0;  ///< closing speed beyond which the clock slows, m/s; 0: never
     };
 
-    /// pressure: p in Pa over the seconds since the stage began.
+    /// pressure: p in Pa over the clock's time since the stage began, s.
     StressServo(std::function<double(double time)> pressure, const Settings& settings) : pressure_(std::move(pressure)), settings_(settings) {}
 
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
 
+    [[nodiscard]] double clock() const { return clock_; } ///< s
+
   private:
     std::function<double(double)> pressure_;
     Settings settings_;
-    double begun_ = 0.0;
+    double clock_ = 0.0;
+    double speed_ = 0.0;    // mean closing over the last crossings, m/s
     double integral_ = 0.0; // of the error, Pa s
 };
 

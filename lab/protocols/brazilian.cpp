@@ -174,10 +174,10 @@ class Brazilian : public Protocol {
             across = y ? std::optional(-y->slope) : std::nullopt;
         }
         return {{"centre_tension", "Tension in the middle over 2P/(pi D t)", across, "",
-                 "slope of the averaged stress across the load, inner quarter of the diameter, 20 % to 50 % of the peak; a disc of Hertz has 0.97 "
+                 "slope of the averaged stress across the load, inner quarter of the diameter, 20 % to 50 % of the peak; Hertz's disc has 15/16 "
                  "there on average, 1 at its centre"},
                 {"centre_compression", "Compression in the middle over 2P/(pi D t)", along, "",
-                 "the same along the load; a disc of Hertz has 3.03 on average, 3 at its centre"}};
+                 "the same along the load; Hertz's disc has 47/16 there on average, 3 at its centre"}};
     }
 
     static std::vector<report::Scalar> cracks(const Measured& m, const Loading& l, std::size_t peak) {

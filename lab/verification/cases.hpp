@@ -31,5 +31,6 @@ Case polygon_areas();
 Case area_models();
 Case area_partition();
 Case elastic_study();
+Case elastic_laboratory();
 
 } // namespace proveta::verification

@@ -26,6 +26,7 @@ const std::vector<Case>& cases() {
         area_models(),
         area_partition(),
         elastic_study(),
+        elastic_laboratory(),
         mesh_convergence(),
         step_convergence(),
         rate_convergence(),

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "lab/derived.hpp"
 #include "lab/quasi_static.hpp"
 #include "lab/controls/closing.hpp"
+#include "lab/derived.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
 #include "reports/svg.hpp"
@@ -52,22 +52,25 @@ TEST_CASE("no text of a user reaches the page unescaped") {
 
 TEST_CASE("the verdict on quasi-static loading follows its figures") {
     report::Table curve;
-    curve.columns = {{"axial_stress", "", ""}, {"force_bottom", "", ""}, {"force_top", "", ""}, {"unbalanced_ratio", "", ""}};
+    for (const char* name : {"axial_stress", "force_bottom", "force_top", "unbalanced_ratio", "phase", "axial_strain", "gauge_axial_strain",
+                             "circumferential_strain", "volumetric_strain", "deviatoric_stress"}) {
+        curve.columns.push_back({name, "", ""});
+    }
     report::Table energy;
     energy.columns = {{"kinetic", "", ""}, {"elastic", "", ""}};
     for (int k = 1; k <= 10; ++k) {
-        curve.rows.push_back({1.0 * k, 100.0 * k, 101.0 * k, 0.005});
+        curve.rows.push_back({1.0 * k, 100.0 * k, 101.0 * k, 0.005, phase_loading, 1e-3 * k, 1e-3 * k, 0.0, 0.0, 1.0 * k});
         energy.rows.push_back({0.001, 1.0});
     }
-    CHECK(quasi_static_verdict(curve, energy).good);
+    CHECK(quasi_static_verdict(curve, 1.0, energy).good);
     auto uneven = curve;
     uneven.rows[5][1] *= 0.95;
-    CHECK_FALSE(quasi_static_verdict(uneven, energy).good);
+    CHECK_FALSE(quasi_static_verdict(uneven, 1.0, energy).good);
     auto shaking = curve;
     shaking.rows[5][3] = 0.02;
-    CHECK_FALSE(quasi_static_verdict(shaking, energy).good);
+    CHECK_FALSE(quasi_static_verdict(shaking, 1.0, energy).good);
     auto fast = energy;
     fast.rows[5][0] = 0.02;
-    CHECK_FALSE(quasi_static_verdict(curve, fast).good);
-    CHECK_FALSE(quasi_static_verdict({curve.columns, {}, {}}, {energy.columns, {}, {}}).good);
+    CHECK_FALSE(quasi_static_verdict(curve, 1.0, fast).good);
+    CHECK_FALSE(quasi_static_verdict({curve.columns, {}, {}}, 1.0, {energy.columns, {}, {}}).good);
 }
