@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace proveta::report {
 
@@ -50,11 +51,13 @@ struct Frame {
 // Where the key stands: the first of the four corners that the fewest points of the curves run through. Left end and first baseline.
 template <class X, class Y> std::pair<double, double> key_place(const Plot& plot, const X& px, const Y& py, const Frame& f) {
     std::size_t longest = 0;
+    std::size_t named = 0;
     for (const auto& c : plot.curves) {
         longest = std::max(longest, c.name.size());
+        named += c.name.empty() ? 0 : 1;
     }
     const double wide = 40.0 + 6.6 * static_cast<double>(longest);
-    const double high = 17.0 * static_cast<double>(plot.curves.size()) + 8.0;
+    const double high = 17.0 * static_cast<double>(named) + 8.0;
     const Frame corners[] = {{f.left + 6, f.top, f.left + 6 + wide, f.top + high},
                              {f.right - wide, f.top, f.right, f.top + high},
                              {f.right - wide, f.bottom - high, f.right, f.bottom},
@@ -65,7 +68,8 @@ template <class X, class Y> std::pair<double, double> key_place(const Plot& plot
         std::size_t inside = 0;
         for (const auto& c : plot.curves) {
             for (std::size_t k = 1; k < c.x.size(); ++k) {
-                for (int part = 0; part < 8; ++part) { // along the line, not only at its ends
+                const int parts = c.style == CurveStyle::points ? 1 : 8;
+                for (int part = 0; part < parts; ++part) { // along the line, not only at its ends
                     const double t = part / 8.0;
                     const double x = px(c.x[k - 1] + t * (c.x[k] - c.x[k - 1]));
                     const double y = py(c.y[k - 1] + t * (c.y[k] - c.y[k - 1]));
@@ -81,6 +85,32 @@ template <class X, class Y> std::pair<double, double> key_place(const Plot& plot
     return {best->left + 6, best->top + 14};
 }
 
+constexpr const char* dashes = " stroke-dasharray=\"7 4\"";
+
+std::string drawn(const Curve& c, const std::vector<std::pair<double, double>>& at) {
+    std::string out;
+    if (c.style == CurveStyle::points) {
+        for (const auto& [x, y] : at) {
+            out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"{}\"/>\n", x, y, c.colour);
+        }
+        return out;
+    }
+    for (const auto& [x, y] : at) {
+        out += fmt::format("{:.2f},{:.2f} ", x, y);
+    }
+    return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n", out,
+                       c.colour, c.width, c.style == CurveStyle::dashed ? dashes : "");
+}
+
+// A line of the key, its sign beginning at x.
+std::string key_line(const Curve& c, double x, double y) {
+    const std::string sign = c.style == CurveStyle::points
+                                 ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3.5\" fill=\"{}\"/>", x + 11, y, c.colour)
+                                 : fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"{4}/>",
+                                               x, y, x + 22, c.colour, c.style == CurveStyle::dashed ? dashes : "");
+    return sign + fmt::format("<text x=\"{}\" y=\"{}\" fill=\"#111\">{}</text>\n", x + 28, y + 4, escape(c.name));
+}
+
 // White to blue to dark, readable in print.
 std::string shade(double t) {
     t = std::clamp(t, 0.0, 1.0);
@@ -92,13 +122,11 @@ std::string shade(double t) {
 
 std::string to_svg(const Plot& plot) {
     constexpr double width = 640;
-    constexpr double height = 380;
-    constexpr double left = 66;
-    constexpr double bottom = 48;
-    constexpr double top = 14;
-    constexpr double right = 16;
-    double x0 = 0.0;
-    double x1 = 0.0;
+    double height = 380;
+    Frame frame{66, 14, width - 16, height - 48};
+    constexpr double none = std::numeric_limits<double>::infinity();
+    double x0 = plot.x_from_zero ? 0.0 : none;
+    double x1 = plot.x_from_zero ? 0.0 : -none;
     double y0 = 0.0;
     double y1 = 0.0;
     for (const auto& c : plot.curves) {
@@ -109,11 +137,23 @@ std::string to_svg(const Plot& plot) {
             y1 = std::max(y1, c.y[k]);
         }
     }
-    const Axis ax(x0, x1);
+    const Axis ax = x0 <= x1 ? Axis(x0, x1) : Axis(0.0, 1.0);
     const Axis ay(y0, y1);
-    const auto px = [&](double v) { return left + ax.at(v) * (width - left - right); };
-    const auto py = [&](double v) { return height - bottom - ay.at(v) * (height - bottom - top); };
-    std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\" "
+    if (plot.equal_scale) {
+        // The axis that needs less room gives up the rest of it.
+        const double across = (ax.high - ax.low) / (frame.right - frame.left);
+        const double up = (ay.high - ay.low) / (frame.bottom - frame.top);
+        if (across > up) {
+            const double spare = (frame.bottom - frame.top) * (1.0 - up / across);
+            frame.bottom -= spare;
+            height -= spare;
+        } else {
+            frame.right = frame.left + (ax.high - ax.low) / up;
+        }
+    }
+    const auto px = [&](double v) { return frame.left + ax.at(v) * (frame.right - frame.left); };
+    const auto py = [&](double v) { return frame.bottom - ay.at(v) * (frame.bottom - frame.top); };
+    std::string out = fmt::format("<svg viewBox=\"0 0 {} {:.6g}\" role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\" "
                                   "font-family=\"sans-serif\" font-size=\"12\">\n",
                                   width, height, escape(plot.title));
     for (double v = ax.low; v <= ax.high + 0.5 * ax.tick; v += ax.tick) {
@@ -126,23 +166,20 @@ std::string to_svg(const Plot& plot) {
                            "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5:.6g}</text>\n",
                            py(v), px(ax.low), px(ax.high), px(ax.low) - 6, py(v) + 4, std::fabs(v) < 1e-9 * ay.tick ? 0.0 : v);
     }
-    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (left + width - right),
+    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (frame.left + frame.right),
                        height - 10, escape(plot.x_title));
     out += fmt::format("<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n",
-                       0.5 * (top + height - bottom), escape(plot.y_title));
-    const auto [key_left, key_top] = key_place(plot, px, py, {left, top, width - right, height - bottom});
+                       0.5 * (frame.top + frame.bottom), escape(plot.y_title));
+    const auto [key_left, key_top] = key_place(plot, px, py, frame);
     double key = key_top;
     for (const auto& c : plot.curves) {
-        std::string points;
+        std::vector<std::pair<double, double>> at;
         for (std::size_t k = 0; k < c.x.size(); ++k) {
-            points += fmt::format("{:.2f},{:.2f} ", px(c.x[k]), py(c.y[k]));
+            at.emplace_back(px(c.x[k]), py(c.y[k]));
         }
-        out += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" stroke-linejoin=\"round\"/>\n", points,
-                           c.colour);
-        if (plot.curves.size() > 1) {
-            out += fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"/>"
-                               "<text x=\"{4}\" y=\"{5}\" fill=\"#111\">{6}</text>\n",
-                               key_left, key, key_left + 22, c.colour, key_left + 28, key + 4, escape(c.name));
+        out += drawn(c, at);
+        if (plot.curves.size() > 1 && !c.name.empty()) {
+            out += key_line(c, key_left, key);
             key += 17;
         }
     }

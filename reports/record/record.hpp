@@ -48,11 +48,16 @@ struct Badge {
     std::vector<std::pair<std::string, std::string>> figures; ///< what was found against what is allowed
 };
 
-/// A curve of a plot.
+/// How a curve is drawn.
+enum class CurveStyle { solid, dashed, points };
+
+/// A curve of a plot. Without a name it has no line in the key.
 struct Curve {
     std::string name;
     std::vector<double> x, y;
     std::string colour = "#1f4e79";
+    CurveStyle style = CurveStyle::solid;
+    double width = 1.8; ///< of the line, in pixels
 };
 
 /// A plot: curves with axis titles in the units of the page.
@@ -61,6 +66,8 @@ struct Plot {
     std::string x_title, y_title;
     std::vector<Curve> curves;
     std::vector<std::pair<double, double>> marks; ///< points to mark
+    bool equal_scale = false;                     ///< a unit is as long on both axes
+    bool x_from_zero = true;                      ///< the x axis reaches to 0; the y axis always does
 };
 
 /// A line (bond, crack) or dot (sphere) of a specimen picture, in the plane of the cut, m.
