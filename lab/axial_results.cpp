@@ -44,7 +44,7 @@ std::vector<report::Scalar> elastic_results(const Loading& l) {
     const auto half = x_at_share(l.gauge, l.deviator, 0.5);
     const double peak = l.deviator.empty() ? 0.0 : l.deviator[peak_index(l.deviator)];
     const auto slope = [](const std::optional<Line>& x) { return x ? std::optional(x->slope) : std::nullopt; };
-    const auto toe = travel && travel->slope > 0.0 ? std::optional(-travel->offset / travel->slope) : std::nullopt;
+    const auto toe = travel && travel->slope > 0.0 ? std::optional(-travel->intercept / travel->slope) : std::nullopt;
     return {
         {"young_modulus", "Young's modulus E", slope(line), "Pa",
          "slope of deviatoric stress over middle gauge strain, 10 % to 33 % of the peak deviator (EN 12390-13)"},

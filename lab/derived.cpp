@@ -82,7 +82,7 @@ std::optional<double> y_at(const std::vector<double>& x, const std::vector<doubl
 
 std::optional<double> offset_yield(const std::vector<double>& x, const std::vector<double>& y, const Line& line, double offset) {
     for (std::size_t k = 0; k < x.size(); ++k) {
-        if (y[k] > 0.0 && y[k] < line.slope * (x[k] - offset) + line.offset) {
+        if (y[k] > 0.0 && y[k] < line.slope * (x[k] - offset) + line.intercept) {
             return y[k];
         }
     }

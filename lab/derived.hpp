@@ -8,10 +8,10 @@
 
 namespace proveta {
 
-/// A line y = slope x + offset.
+/// A line y = slope x + intercept.
 struct Line {
     double slope = 0.0;
-    double offset = 0.0;
+    double intercept = 0.0;
 };
 
 /// Least-squares line through the points first to last, both included; empty when x does not vary.

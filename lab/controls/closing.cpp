@@ -21,7 +21,10 @@ Drive SteadyClosing::drive(const BenchView& bench) {
     return {from_ + (speed_ - from_) * smooth_start(bench.model.time() - begun_, ramp_), pressure_};
 }
 
-void LedClosing::begin(const BenchView&, const Drive& last) { rate_.start(last.closing); }
+void LedClosing::begin(const BenchView& bench, const Drive& last) {
+    rate_.start(last.closing);
+    origin_ = origin_.value_or(bench.strain());
+}
 
 Drive LedClosing::drive(const BenchView&) { return {rate_.rate(), pressure_}; }
 
@@ -30,8 +33,11 @@ bool LedClosing::looks(const BenchView& bench) const { return rate_.looks_at(ben
 void LedClosing::stepped(const BenchView& bench, bool measured) {
     if (measured) {
         const Ledger& l = bench.model.ledger();
-        rate_.observe(
-            {bench.strain(), l.platens + l.pressure, l.damage, l.kinetic, l.elastic, bench.model.measures().unbalanced_ratio});
+        const double lower = bench.model.platens[0].load();
+        const double upper = bench.model.platens[1].load();
+        rate_.observe({bench.strain() - origin_.value_or(0.0), l.platens + l.pressure, l.damage, l.kinetic, l.elastic,
+                       bench.model.measures().unbalanced_ratio,
+                       std::fabs(lower - upper) / std::max(0.5 * std::fabs(lower + upper), 1e-300)});
     }
     rate_.advance(bench.model.dt());
 }

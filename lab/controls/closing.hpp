@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "lab/controls/control.hpp"
 #include "lab/controls/rate_control.hpp"
@@ -40,6 +41,7 @@ class LedClosing : public Control {
   private:
     RateControl rate_;
     double pressure_;
+    std::optional<double> origin_; // strain at which the loading began
 };
 
 /// The platens go back, at a steady speed in m/s or, with 0, at a twentieth of the strain per crossing of a wave: nothing breaks on

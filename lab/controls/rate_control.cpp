@@ -15,6 +15,7 @@ constexpr double damage_high = 0.015;     // and at which it is lowest; up to th
 constexpr double memory = 0.08;           // of the work so far, over which the damage ratio is taken
 constexpr double most_kinetic = 0.005;    // half of what the verdict allows, over the elastic energy
 constexpr double most_unbalanced = 0.005; // the same
+constexpr double most_imbalance = 0.01;   // the same, of the platens' forces
 constexpr double lowest = 0.5;            // of eta_slow: failure itself may not bring the test to a halt
 constexpr double most_gain = 0.1;         // of the strain per crossing: stress differences of 1.2 %
 
@@ -47,7 +48,7 @@ void RateControl::observe(const RateReading& r) {
     const double base = slow_from_ > 0.0 ? slow_from_ : strain_;
     if (strain_ > 0.5 * scale_.first_damage) { // at the start nothing is stored yet, and nothing can break
         const auto limit = [&](double found, double allowed) { return found > allowed ? allowed / found : 1.0; };
-        share *= std::sqrt(limit(r.kinetic, most_kinetic * r.elastic)) * limit(r.unbalanced, most_unbalanced);
+        share *= std::sqrt(limit(r.kinetic, most_kinetic * r.elastic)) * limit(r.unbalanced, most_unbalanced) * limit(r.imbalance, most_imbalance);
     }
     share = std::max(share, lowest * eta_slow / eta_fast);
     aim_ = pace_ * share * std::max(eta_fast * base, first_speed * scale_.first_damage);

@@ -9,7 +9,8 @@
 //    break, eta falls to eta_slow, e being held at what it was then. What leads it is the damage ratio: energy dissipated by damage over
 //    the work put in, of late. It is 0 in the elastic range, whatever the speed, and its order of magnitude at the peak depends little on
 //    the specimen.
-//  * Kinetic over elastic energy and the unbalanced force ratio above half of what the verdict allows lower the speed further.
+//  * Kinetic over elastic energy, the unbalanced force ratio and the difference of the platens' forces above half of what the verdict
+//    allows lower the speed further.
 //  * Acceleration costs stress differences of (1/8) (du/dt H/c) / e: it is bounded by a share of e, and follows its aim with a lag, so
 //    that no wave starts.
 //
@@ -39,6 +40,7 @@ struct RateReading {
     double kinetic = 0.0;    ///< energy, J
     double elastic = 0.0;    ///< energy, J
     double unbalanced = 0.0; ///< force ratio
+    double imbalance = 0.0;  ///< difference of the platens' forces over their mean
 };
 
 /// Steps between looks: a quarter of a wave's crossing, from 10 to 100 steps.
