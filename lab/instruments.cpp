@@ -14,6 +14,7 @@ Instruments::Instruments(const Bench& bench) {
     height_ = shape.height;
     off_ = detached_spheres(*bench.model);
     inner_ = bench.press.inner;
+    middle_ = bench.press.bands ? shape.inner(1.0, 0.6) : inner_;
     for (std::size_t k = 0; k < s.size(); ++k) {
         if (inner_.contains(s.start.at(k))) {
             inside_.push_back(k);
@@ -141,6 +142,7 @@ report::Table Instruments::empty_curve() const {
                  {"inner_stress_xy", "Pa", "the same"},
                  {"inner_stress_yz", "Pa", "the same"},
                  {"inner_stress_zx", "Pa", "the same"},
+                 {"middle_stress", "Pa", "Love-Weber stress along the loading over the whole section, middle 60 % of the height; of a disc the inner region's"},
                  {"broken_bonds", "", "failed bonds so far"},
                  {"broken_in_tension", "", "of these in tension"},
                  {"broken_in_shear", "", "of these in shear"},
@@ -212,6 +214,7 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
                           inner(0, 1),
                           inner(1, 2),
                           inner(2, 0),
+                          along.dot(mean_stress(m, middle_) * along),
                           static_cast<double>(broken_tension_ + broken_shear_),
                           static_cast<double>(broken_tension_),
                           static_cast<double>(broken_shear_),

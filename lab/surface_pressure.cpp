@@ -6,12 +6,12 @@ namespace proveta {
 
 Pressure lateral_pressure(const Shape& shape, const Spheres& spheres) {
     const SurfaceNet net = side_net(shape, spheres);
-    return make_pressure(spheres, net.sphere, net.raise, net.facets, net.surface);
+    return make_pressure(spheres, net.sphere, net.raise, net.normal, net.facets, net.surface);
 }
 
 Pressure end_pressure(const Shape& shape, const Spheres& spheres, double outward) {
     const SurfaceNet net = end_net(shape, spheres, outward);
-    return make_pressure(spheres, net.sphere, net.raise, net.facets, net.surface);
+    return make_pressure(spheres, net.sphere, net.raise, net.normal, net.facets, net.surface);
 }
 
 } // namespace proveta

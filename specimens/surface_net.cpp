@@ -73,6 +73,14 @@ double way_around(const Shape& shape, const Vec3& p) {
     return p.y() > 0.0 ? shape.depth + 0.5 * shape.width - p.x() : 2.0 * shape.depth + shape.width + 0.5 * shape.width + p.x();
 }
 
+Vec3 side_normal(const Shape& shape, const Vec3& p) {
+    if (shape.kind == ShapeKind::cylinder) {
+        return Vec3(p.x(), p.y(), 0.0).normalized();
+    }
+    const bool along_x = 0.5 * shape.width - std::fabs(p.x()) < 0.5 * shape.depth - std::fabs(p.y());
+    return along_x ? Vec3(std::copysign(1.0, p.x()), 0.0, 0.0) : Vec3(0.0, std::copysign(1.0, p.y()), 0.0);
+}
+
 } // namespace
 
 SurfaceNet side_net(const Shape& shape, const Spheres& s) {
@@ -89,6 +97,7 @@ SurfaceNet side_net(const Shape& shape, const Spheres& s) {
         const double level = upper ? shape.height : lower ? 0.0 : at.z();
         net.sphere.push_back(static_cast<std::int32_t>(k));
         net.raise.push_back(level - at.z());
+        net.normal.push_back(side_normal(shape, at));
         points.push_back({way_around(shape, at), level});
     }
     // The side closes in itself: half of the points once more on either side, and of equal facets the one whose middle is on the first round.
@@ -119,6 +128,7 @@ SurfaceNet end_net(const Shape& shape, const Spheres& s, double outward) {
         if (std::fabs(level - at.z()) < reach * s.radius[k]) {
             net.sphere.push_back(static_cast<std::int32_t>(k));
             net.raise.push_back(level - at.z());
+            net.normal.push_back(outward * Vec3::UnitZ());
             points.push_back({at.x(), outward * at.y()}); // mirrored below, so that facets face outwards
         }
     }

@@ -12,6 +12,7 @@ namespace proveta {
 struct SurfaceNet {
     std::vector<std::int32_t> sphere; ///< ascending
     std::vector<double> raise;        ///< m
+    VectorField normal;               ///< of the true surface, outward
     std::vector<Facet> facets;
     double surface = 0.0; ///< true area that the net stands for, m2
 };

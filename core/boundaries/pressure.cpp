@@ -21,8 +21,8 @@ Vec3 area_of(const Spheres& spheres, const Pressure& p, std::uint32_t k) {
 
 } // namespace
 
-Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const std::vector<Facet>& facets,
-                       double surface) {
+Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const VectorField& normal,
+                       const std::vector<Facet>& facets, double surface) {
     Pressure p;
     p.sphere = std::move(sphere);
     p.raise = std::move(raise);
@@ -38,20 +38,12 @@ Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere,
         p.offset.push_back(static_cast<std::uint32_t>(p.others.size()));
     }
     p.force.resize(p.sphere.size());
-    const double net = net_area(spheres, p);
+    double net = 0.0;
+    for (std::uint32_t k = 0; k < p.sphere.size(); ++k) {
+        net += area_of(spheres, p, k).dot(normal.at(k));
+    }
     p.scale = net > 0.0 ? surface / net : 1.0;
     return p;
-}
-
-double net_area(const Spheres& spheres, const Pressure& p) {
-    double sum = 0.0;
-    for (std::uint32_t k = 0; k < p.sphere.size(); ++k) {
-        const Vec3 own = corner(spheres, p, k);
-        for (auto e = p.offset[k]; e < p.offset[k + 1]; ++e) {
-            sum += (corner(spheres, p, p.others[e][0]) - own).cross(corner(spheres, p, p.others[e][1]) - own).norm() / 6.0;
-        }
-    }
-    return sum;
 }
 
 double pressure_forces(const Spheres& spheres, Pressure& p, const SphereBlock& block, double dt, Loads& loads) {

@@ -20,18 +20,16 @@ struct Pressure {
     double value = 0.0;               ///< Pa, positive presses inwards
     std::vector<std::int32_t> sphere; ///< ascending
     std::vector<double> raise;        ///< by which a sphere of the rim is lifted to where the surface ends, m; one a sphere
-    double scale = 1.0;               ///< true surface over that of the net at the start, because the centres lie below the surface
+    double scale = 1.0;               ///< true surface over that of the net, seen along the true normals, at the start: centres lie below it
     std::vector<std::uint32_t> offset;                   ///< of each sphere into `others`, and the end
     std::vector<std::array<std::uint32_t, 2>> others;    ///< the other corners of its facets, in their order
     VectorField force;                                   ///< of the last step, N
 };
 
-/// A pressure on the given facets. spheres: the model's, at the start; sphere, raise: as in Pressure; surface: true area of the net, m2.
-Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const std::vector<Facet>& facets,
-                       double surface);
-
-/// Sum of the areas of the net, unscaled, m2.
-double net_area(const Spheres& spheres, const Pressure& pressure);
+/// A pressure on the given facets. spheres: the model's, at the start; sphere, raise: as in Pressure; normal: of the true surface, outward,
+/// one a sphere; surface: true area that the net stands for, m2. The net is rough: what counts is what it shows along those normals.
+Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const VectorField& normal,
+                       const std::vector<Facet>& facets, double surface);
 
 /// Adds the forces of the pressure on one block of spheres to the loads. `force` has one entry a sphere of the pressure. Returns the work
 /// done in the step of dt seconds, J.

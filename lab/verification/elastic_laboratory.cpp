@@ -80,7 +80,8 @@ Case elastic_laboratory() {
                 const auto [young, poisson] = measured(ucs);
                 report("cylinder: E, inner gauges", young, "Pa");
                 report("cylinder: nu, inner gauges", poisson);
-                check("ucs: stress in the middle over the platens'", 1.0, ucs.of("inner_stress_zz"), 0.02);
+                check("ucs: stress in the middle, whole section, over the platens'", 1.0, ucs.of("middle_stress"), 0.02);
+                report("ucs: stress in the inner region over the platens'", ucs.of("inner_stress_zz"));
                 report("ucs: modulus by platen travel over E", 1.0 / ucs.of("axial_strain") / young);
 
                 const ElasticTest oedometer("oedometric", cylinder, {{"stop", {{"axial_strain", 0.0004}}}});
@@ -97,14 +98,15 @@ Case elastic_laboratory() {
                 const double mean = (hydrostatic.of("inner_stress_zz") + 2.0 * hydrostatic.lateral_stress()) / 3.0;
                 check("hydrostatic: bulk modulus", young / (3.0 * (1.0 - 2.0 * poisson)), mean / trace, 0.05, "Pa");
                 check("hydrostatic: lateral over axial strain", 1.0, hydrostatic.lateral_strain() / hydrostatic.of("inner_strain_zz"));
-                check("hydrostatic: mean stress inside over the pressure", 1.0, mean, 0.02);
+                check("hydrostatic: axial stress in the middle, whole section, over the pressure", 1.0, hydrostatic.of("middle_stress"), 0.02);
+                report("hydrostatic: mean stress in the inner region over the pressure", mean);
                 out.checks.push_back({"hydrostatic: servo, largest error", 0.01, hydrostatic.worst_ratio("axial_stress", "lateral_stress"), 0.0,
                                       Compare::at_most, ""});
 
                 const ElasticTest triaxial("triaxial", cylinder,
                                            {{"confining_pressure", "4.5 MPa"}, {"platen_friction", "lubricated"}, {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
                 check("triaxial: E, inner gauges", young, triaxial.of("inner_stress_zz") / triaxial.of("inner_strain_zz"), 0.02, "Pa");
-                check("triaxial: stress in the middle over the platens', axial loading", 1.0, triaxial.of("inner_stress_zz"), 0.02);
+                check("triaxial: stress in the middle, whole section, over the platens'", 1.0, triaxial.of("middle_stress"), 0.02);
 
                 const ElasticTest pressed("ucs", disc, free);
                 const Elasticity own = measured(pressed);
@@ -121,6 +123,8 @@ Case elastic_laboratory() {
 
                 const ElasticTest tension_test("direct-tension", cylinder, {{"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
                 check("direct tension: E, inner gauges", young, tension_test.of("inner_stress_zz") / tension_test.of("inner_strain_zz"), 0.02, "Pa");
+                out.notes.emplace_back("The inner region carries some 3 % more than the mean of the section: bond areas inside make up 1.03 of it, those of the "
+                                       "skin less (area-partition). Modulus and ratio are of readings inside, so it drops out of them.");
                 return out;
             }};
 }
