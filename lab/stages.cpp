@@ -109,7 +109,7 @@ void declare_axial(input::Visitor& v, AxialLoading& l, bool with_girth) {
                  {{"platens", "the closing of the platens leads the whole test"},
                   {"girth", "from the first failed bonds on, the circumferential gauge does: the platens give way when cracks open too fast"}},
                  "what leads the test");
-        v.number_or_word("girth_rate", l.girth_rate, {{"auto", "the rate at which the girth grows when it takes the lead"}}, Unit::none,
+        v.number_or_word("girth_rate", l.girth_rate, {{"auto", "that of an elastic specimen closing by a hundredth of its strain while a wave crosses it"}}, Unit::none,
                          {0.0, 1e4, true, false}, "growth of the circumferential strain under \"control\": \"girth\", 1/s");
     }
 }
@@ -217,9 +217,10 @@ double lowest_tensile_strain(const Bonds& bonds) {
 }
 
 ElasticGuess elastic_guess(const Model& model) {
+    // The affine bound of an isotropic network whose bond areas fill space; k = k_t / k_n.
     const Material& m = model.materials.front();
-    // A network of virtual polyhedra answers with some 0.71 of its bonds' modulus and a Poisson's ratio near 0.2.
-    return {0.71 * m.normal_factor * m.young_modulus, 0.2};
+    const double k = bond_law(m).shear_ratio;
+    return {m.normal_factor * m.young_modulus * (2.0 + 3.0 * k) / (4.0 + k), std::max((1.0 - k) / (4.0 + k), 0.0)};
 }
 
 StressServo::Settings servo_settings(const BenchView& bench, double speed_limit) {

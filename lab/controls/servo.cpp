@@ -15,6 +15,7 @@ constexpr double proportional = 0.4;
 constexpr double integral = 0.04;
 constexpr double memory = 2.0; // crossings over which the speed is averaged that the clock goes by
 
+constexpr double slow = 0.01;      // of the strain, per crossing
 constexpr double girth_gain = 0.3;
 constexpr double girth_lag = 0.5; // crossings over which the speed follows what the loop asks for
 
@@ -49,11 +50,12 @@ void GirthServo::begin(const BenchView& bench, const Drive& last) {
     begun_ = bench.model.time();
     from_ = -bench.girth_strain();
     speed_ = last.closing;
-    limit_ = std::fabs(last.closing);
+    limit_ = std::min(std::fabs(last.closing), slow * bench.strain() * bench.wave_speed);
     if (rate_ <= 0.0) {
         rate_ = lateral_ * limit_ / bench.press.length;
     }
     limit_ = std::max(limit_, rate_ * bench.press.length / lateral_);
+    speed_ = std::min(speed_, limit_);
 }
 
 Drive GirthServo::drive(const BenchView& bench) {

@@ -40,8 +40,9 @@ class StressServo : public Control {
 /// a brittle specimen from running away past its peak, where no steady closing is stable.
 class GirthServo : public Control {
   public:
-    /// rate: growth of the girth, strain per s; 0: the one that the stage begins with. lateral: circumferential over axial strain that the loop
-    /// reckons with; pressure on the side, Pa.
+    /// rate: growth of the girth, strain per s; 0: as fast as the platens may then close. lateral: circumferential over axial strain that the
+    /// loop reckons with; pressure on the side, Pa. The platens close no faster than when the loop took over, nor than a hundredth of the strain
+    /// then per crossing of a wave, so that they can still turn back while a crack runs.
     GirthServo(double rate, double lateral, double pressure) : rate_(rate), lateral_(lateral), pressure_(pressure) {}
 
     void begin(const BenchView& bench, const Drive& last) override;
