@@ -241,7 +241,8 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
     each_block(s, bonds, contacts, platens, skin, [&](std::size_t k, const Block& block) {
         // Eigenvalues are only worked out where cheaper tests do not settle the matter: what is left out could not be the lowest.
         double known = lowest.load(std::memory_order_relaxed);
-        if (block.demand_at_most(s.mass[k], s.inertia[k]).step() >= known || block.stable_at(known, s.mass[k], s.inertia[k])) {
+        const double beyond = known * (1.0 + 1e-9); // a margin over rounding, so that the lowest does not depend on who comes first
+        if (block.demand_at_most(s.mass[k], s.inertia[k]).step() >= beyond || block.stable_at(beyond, s.mass[k], s.inertia[k])) {
             return;
         }
         const double step = block.demand(s.mass[k], s.inertia[k]).step();
