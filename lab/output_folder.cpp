@@ -44,8 +44,8 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::begin() {
     begun_ = true;
-    for (const char* name : {"report.html", "summary.json", "manifest.json", "curve.csv", "events.csv", "energy.csv", "checkpoint.h5",
-                             "series.pvd", "fields"}) {
+    for (const char* name : {"report.html", "summary.json", "manifest.json", "curve.csv", "events.csv", "acoustic.csv", "energy.csv",
+                             "checkpoint.h5", "series.pvd", "fields"}) {
         fs::remove_all(path_ / name);
     }
 }

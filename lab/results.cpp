@@ -48,12 +48,13 @@ report::Plot plot_of(const PlotSpec& spec, const TestData& data) {
 // The test's own plots, then what every test shows.
 std::vector<report::Plot> plots(const Protocol& protocol, double sense, const TestData& data) {
     auto specs = protocol.plots();
-    specs.push_back({"Failed bonds.",
-                     "axial strain [%]",
-                     "failed bonds",
-                     sense * 100.0,
-                     1.0,
-                     {{"axial_strain", "broken_in_tension", "in tension", "#c0392b"}, {"axial_strain", "broken_in_shear", "in shear", "#d68910"}}});
+    specs.push_back(
+        {"Failed bonds.",
+         "axial strain [%]",
+         "failed bonds",
+         sense * 100.0,
+         1.0,
+         {{"axial_strain", "broken_in_tension", "in tension", "#c0392b"}, {"axial_strain", "broken_in_shear", "in shear", "#d68910"}}});
     specs.push_back({"Where the work put in went.",
                      "axial strain [%]",
                      "energy [J]",
@@ -154,7 +155,10 @@ report::Table event_table(const std::vector<FailureEvent>& events) {
     return t;
 }
 
-report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::string& status) {
+AcousticRule acoustic_rule(const Bench& bench) { return {2.0 * bench.statistics.mean_radius, bench.wave_speed}; }
+
+report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::vector<AcousticEvent>& acoustic,
+                           const std::string& status) {
     const auto info = deck.protocol->about();
     report::Record r;
     r.title = deck.title;
@@ -163,10 +167,14 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     r.stopped_by = data.stopped_by;
     if (!data.curve.rows.empty()) {
         r.results = deck.protocol->results({data.curve, data.energy, data.events, bench.specimen.shape, bench.press});
-        for (auto& scalar : rate_results(data.curve, bench.press.sense)) {
-            r.results.push_back(std::move(scalar));
+        for (auto&& more : {rate_results(data.curve, bench.press.sense), acoustic_results(acoustic)}) {
+            r.results.insert(r.results.end(), more.begin(), more.end());
         }
         r.plots = plots(*deck.protocol, bench.press.sense, data);
+        if (!acoustic.empty()) {
+            r.plots.push_back(acoustic_activity_plot(acoustic));
+            r.plots.push_back(magnitude_plot(acoustic));
+        }
     }
     r.badges = {quasi_static_verdict(data.curve, bench.press.sense, data.energy, data.rate_check), energy_verdict(data.energy)};
     if (status == "interrupted") {
@@ -214,6 +222,7 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
     j["title"] = r.title;
     j["status"] = r.status;
     j["stopped_by"] = r.stopped_by;
+    j["stages"] = data.stages;
     for (const auto& s : r.results) {
         j["results"][s.name] = {{"value", s.value ? input::Json(*s.value) : input::Json()}, {"unit", s.unit}, {"formula", s.formula}};
     }
@@ -251,6 +260,7 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
     j["time_step_s"] = bench.model->dt();
     const MassScaling& scaling = bench.model->mass_scaling();
     j["mass_scaling"] = {{"added_mass", scaling.added},
+                         {"added_later", scaling.added_later},
                          {"spheres", scaling.spheres},
                          {"largest_factor", scaling.largest_factor},
                          {"stable_step_without_s", scaling.step_before},
@@ -269,11 +279,18 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
 }
 
 std::string text_of(const MassScaling& s) {
-    if (s.spheres == 0) {
+    if (s.spheres == 0 && s.added_later <= 0.0) {
         return "none";
     }
-    return fmt::format("{:.2f} % added mass on {} spheres, at most {:.3g} times the true one; stable step {:.3g} s instead of {:.3g} s",
-                       100.0 * s.added, s.spheres, s.largest_factor, s.step_after, s.step_before);
+    std::string text =
+        s.spheres == 0
+            ? "none at the start"
+            : fmt::format("{:.2f} % added mass on {} spheres, at most {:.3g} times the true one; stable step {:.3g} s instead of {:.3g} s",
+                          100.0 * s.added, s.spheres, s.largest_factor, s.step_after, s.step_before);
+    if (s.added_later > 0.0) {
+        text += fmt::format("; {:.2g} % more in the course of the test, where new contacts pressed", 100.0 * s.added_later);
+    }
+    return text;
 }
 
 std::string as_text(const report::Record& r) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/input/json.hpp"
+#include "lab/acoustic.hpp"
 #include "lab/test_run.hpp"
 #include "reports/record/record.hpp"
 
@@ -12,8 +13,12 @@ namespace proveta {
 /// events.csv.
 report::Table event_table(const std::vector<FailureEvent>& events);
 
-/// Everything that the page shows.
-report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::string& status);
+/// What belongs to one acoustic event of a specimen.
+AcousticRule acoustic_rule(const Bench& bench);
+
+/// Everything that the page shows. acoustic: the events among data.events.
+report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::vector<AcousticEvent>& acoustic,
+                           const std::string& status);
 
 /// summary.json.
 input::Json summary(const report::Record& record, const Bench& bench, const TestData& data, double seconds);

@@ -119,10 +119,13 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     report::write_file(out.file("curve.csv"), report::to_csv(data.curve));
     report::write_file(out.file("energy.csv"), report::to_csv(data.energy));
     report::write_file(out.file("events.csv"), report::to_csv(event_table(data.events)));
+    const AcousticRule rule = acoustic_rule(bench);
+    const auto acoustic = acoustic_events(data.events, rule);
+    report::write_file(out.file("acoustic.csv"), report::to_csv(acoustic_table(acoustic, rule)));
     if (status != RunStatus::failed) { // a failed state is not worth going on from
         save_checkpoint(*bench.model, resolved(deck).dump(), out.file("checkpoint.h5"));
     }
-    const report::Record record = make_record(deck, bench, data, name(status));
+    const report::Record record = make_record(deck, bench, data, acoustic, name(status));
     report::write_json(out.file("manifest.json"), manifest(deck, bench, options.command, name(status), started, folder));
     report::write_file(out.file("report.html"), report::to_html(record));
     report::write_json(out.file("summary.json"), summary(record, bench, data, seconds));

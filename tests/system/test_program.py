@@ -22,7 +22,7 @@ SMALL = {
     "loading": {"rate": "0.2 m/s"},
     "output": {"samples": 100, "fields": 2},
 }
-FILES = ["manifest.json", "curve.csv", "events.csv", "energy.csv", "summary.json", "series.pvd", "checkpoint.h5", "report.html"]
+FILES = ["manifest.json", "curve.csv", "events.csv", "acoustic.csv", "energy.csv", "summary.json", "series.pvd", "checkpoint.h5", "report.html"]
 
 
 class Case(unittest.TestCase):
@@ -62,7 +62,13 @@ class Running(Case):
         self.assertAlmostEqual(max(stress), summary["results"]["strength"]["value"], delta=1e-6 * max(stress))
         events = self.rows(out / "events.csv")
         self.assertEqual(len(events), int(float(curve[-1]["broken_bonds"])) + sum(float(e["axial_strain"]) > float(curve[-1]["axial_strain"]) for e in events))
+        acoustic = self.rows(out / "acoustic.csv")
+        self.assertEqual(sum(float(r["bonds"]) for r in acoustic), len(events))
+        self.assertEqual(len(acoustic), summary["results"]["acoustic_events"]["value"])
+        self.assertEqual(len(summary["stages"]), len(set(summary["stages"])))
+        self.assertGreaterEqual(summary["mass_scaling"]["added_later"], 0.0)
         page = (out / "report.html").read_text()
+        self.assertIn("Acoustic events by magnitude", page)
         self.assertNotIn("http://", page.replace("http://www.w3.org/2000/svg", ""))
         self.assertNotIn("https://", page)
         self.assertTrue(list((out / "fields").glob("spheres_*.vtp")))
