@@ -16,12 +16,14 @@ namespace proveta {
 
 namespace {
 
-// A column of the curve, or of the energies if the curve has none of that name.
+// The curve, or the energies if the curve has no column of this name.
+const report::Table& table_with(const TestData& data, const std::string& name) {
+    const auto& columns = data.curve.columns;
+    return std::any_of(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; }) ? data.curve : data.energy;
+}
+
 std::vector<double> column_of(const TestData& data, const std::string& name, double scale) {
-    const auto has = [&](const report::Table& t) {
-        return std::any_of(t.columns.begin(), t.columns.end(), [&](const auto& c) { return c.name == name; });
-    };
-    auto values = (has(data.curve) ? data.curve : data.energy).values(name);
+    auto values = table_with(data, name).values(name);
     for (double& v : values) {
         v *= scale;
     }
@@ -153,6 +155,19 @@ report::Table event_table(const std::vector<FailureEvent>& events) {
         t.rows.push_back({e.time, e.axial_strain, e.position.x(), e.position.y(), e.position.z(), static_cast<double>(e.mode), e.energy});
     }
     return t;
+}
+
+MainCurve main_curve(const Protocol& protocol, const TestData& data) {
+    const PlotSpec spec = protocol.plots().front();
+    const PlotCurve& curve = spec.curves.front();
+    const auto column = [&](const std::string& name) {
+        const report::Table& table = table_with(data, name);
+        return table.columns[table.column(name)];
+    };
+    return {{column_of(data, curve.x, std::copysign(1.0, spec.x_scale)), column_of(data, curve.y, std::copysign(1.0, spec.y_scale))},
+            column(curve.x),
+            column(curve.y),
+            {spec.title, spec.x_title, spec.y_title, std::fabs(spec.x_scale), std::fabs(spec.y_scale)}};
 }
 
 AcousticRule acoustic_rule(const Bench& bench) { return {2.0 * bench.statistics.mean_radius, bench.wave_speed}; }
