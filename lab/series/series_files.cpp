@@ -123,11 +123,6 @@ std::string series_text(const report::Record& record, const SeriesResults& r) {
                 out += fmt::format("    {}\n", line(s));
             }
         }
-        for (const auto& b : m.badges) {
-            if (!b.good) {
-                out += fmt::format("    {}: {}\n", b.name, b.verdict);
-            }
-        }
     }
     for (const auto& s : r.scalars) {
         out += fmt::format("  {}\n", line(s));

@@ -40,7 +40,7 @@ report::TextTable member_table(const SeriesResults& r) {
         std::vector<std::string> row{m.member->name, m.member->deck.test, m.status, m.stopped_by};
         for (const auto& name : badges) {
             const auto badge = std::find_if(m.badges.begin(), m.badges.end(), [&](const auto& b) { return b.name == name; });
-            row.push_back(badge == m.badges.end() ? "" : badge->good ? "good" : badge->verdict);
+            row.push_back(badge == m.badges.end() ? "" : badge->good ? "good" : badge->verdict.substr(0, badge->verdict.find(':')));
         }
         t.rows.push_back(std::move(row));
         t.links.push_back(m.badges.empty() ? "" : m.member->name + "/report.html");
@@ -53,7 +53,6 @@ report::TextTable results_table(const SeriesResults& r) {
     for (const auto& m : r.members) {
         t.rows.front().push_back(m.member->name);
     }
-    t.rows.front().emplace_back("How it is found");
     for (const auto& scalar : all_results(r.members)) {
         std::vector<double> values;
         for (const auto& m : r.members) {
@@ -67,8 +66,15 @@ report::TextTable results_table(const SeriesResults& r) {
             const auto value = m.value(scalar.name);
             row.push_back(value ? shown.text(*value) : "");
         }
-        row.push_back(scalar.formula);
         t.rows.push_back(std::move(row));
+    }
+    return t;
+}
+
+report::TextTable formula_table(const SeriesResults& r) {
+    report::TextTable t{"How the tests' results are found", {{"Result", "How it is found"}}};
+    for (const auto& scalar : all_results(r.members)) {
+        t.rows.push_back({scalar.title, scalar.formula});
     }
     return t;
 }
@@ -262,6 +268,7 @@ report::Record series_record(const Plan& plan, const SeriesResults& r) {
             record.tables.push_back(statistics_table(group));
         }
     }
+    record.tables.push_back(formula_table(r));
     return record;
 }
 
