@@ -20,7 +20,8 @@ th{background:#f2f5f8}td.num{text-align:right;white-space:nowrap;font-variant-nu
 .badge{border-left:6px solid #1e7b46;background:#eef7f1;padding:.5rem .9rem;margin:.6rem 0}.badge.bad{border-color:#b03a2e;background:#fbeeec}
 .badge b{display:block}.warn{border-left:6px solid #b9770e;background:#fdf4e3;padding:.4rem .9rem;margin:.4rem 0}
 .row{display:flex;flex-wrap:wrap;gap:1rem}.row figure{flex:1 1 200px;max-width:320px;margin:0}
-.scroll{overflow-x:auto}.row figure.plot{flex:1 1 440px;max-width:none}.row figure.plot:first-child{flex-basis:100%}
+.scroll{overflow-x:auto}.scroll td:first-child,.scroll th:first-child{position:sticky;left:0;min-width:9rem}.scroll td:first-child{background:#fff}
+.row figure.plot{flex:1 1 440px;max-width:none}.row figure.plot:first-child{flex-basis:100%}
 figcaption{font-size:.85rem;color:#4a5866}
 svg{width:100%;height:auto}code{font-size:.88rem;overflow-wrap:anywhere}
 .status{display:inline-block;padding:.1rem .6rem;border-radius:1rem;background:#1e7b46;color:#fff;font-size:.85rem}.status.bad{background:#b03a2e}

@@ -87,23 +87,25 @@ std::string origin_of(const Deck& deck) {
 }
 
 // Makes or loads the specimens and puts every member into its press once: what a deck and its specimen contradict is found before any of
-// the tests begins, and takes a thousandth of their time.
+// the tests begins, and takes a thousandth of their time. An interrupt leaves the rest out.
 Specimens make_ready(const Plan& plan, Board& board) {
     Specimens out;
-    std::map<std::string, std::pair<std::shared_ptr<const Specimen>, std::string>> made;
+    std::map<std::string, std::shared_ptr<const Specimen>> made;
     std::vector<MemberProblem> problems;
-    for (const auto& [name, deck] : plan.members) {
+    out.of.resize(plan.members.size());
+    out.hashes.resize(plan.members.size());
+    for (std::size_t k = 0; k < plan.members.size() && !interrupted(); ++k) {
+        const auto& [name, deck] = plan.members[k];
         try {
-            auto& [specimen, hash] = made[origin_of(deck)];
+            auto& specimen = made[origin_of(deck)];
             if (!specimen) {
                 specimen = std::make_shared<const Specimen>(obtain_specimen(deck.specimen, deck.folder, deck.source, [&](double done) {
                     board.preparing(fmt::format("making the specimen of {}  {:.0f} %", name, 100.0 * done));
                 }));
             }
             board.preparing("setting up " + name);
-            hash = hex(set_up(deck, *specimen).specimen_hash);
-            out.of.push_back(specimen);
-            out.hashes.push_back(hash);
+            out.hashes[k] = hex(set_up(deck, *specimen).specimen_hash);
+            out.of[k] = specimen;
             out.largest = std::max(out.largest, specimen->size());
         } catch (const input::InputError& error) {
             for (const auto& problem : error.problems) {

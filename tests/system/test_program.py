@@ -256,6 +256,24 @@ class Series(Case):
         self.assertEqual(good.returncode, 0)
         self.assertIn("p_4MPa_seed_2", good.stdout)
 
+    def test_a_member_that_fails_does_not_stop_the_others(self):
+        deck = self.confined(pressure=["0 MPa"], rate="0.005 m/s")
+        process = subprocess.Popen([PROGRAM, "run", str(deck), "--out", "r", "--threads", "2", "--quiet"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        lost = self.folder / "r" / "p_0MPa_seed_1"
+        for _ in range(3000):
+            time.sleep(0.01)
+            if (lost / "fields").exists():
+                break
+        time.sleep(0.2)
+        shutil.rmtree(lost)
+        lost.write_text("no folder any more")  # what it has measured cannot be written
+        out, log = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 3, log)
+        self.assertIn("p_0MPa_seed_1", log)
+        summary = json.loads((self.folder / "r" / "summary.json").read_text())
+        self.assertEqual((summary["status"], [m["status"] for m in summary["members"]]), ("failed", ["failed", "complete"]))
+        self.assertIn("1 complete, 1 failed", out)
+
     def test_an_interrupt_stops_all_members_and_keeps_what_they_have(self):
         deck = self.confined(rate="0.001 m/s")
         process = subprocess.Popen([PROGRAM, "run", str(deck), "--out", "r", "--threads", "2"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
