@@ -6,6 +6,7 @@
 
 #include "core/input/suggest.hpp"
 #include "lab/protocols/registry.hpp"
+#include "lab/series/expand.hpp"
 
 namespace proveta {
 
@@ -203,6 +204,7 @@ Json deck_schema() {
         Json one = writer.take();
         one["properties"]["test"] = {{"const", name}};
         one["required"] = {"test"};
+        allow_lists(one);
         schema["oneOf"].push_back(one);
     }
     return schema;

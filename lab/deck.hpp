@@ -80,7 +80,7 @@ void apply_settings(input::Json& json, const std::vector<std::string>& settings)
 /// The deck with every value filled in, SI units, independent of files but for a stored specimen; reading it gives the same run.
 input::Json resolved(const Deck& deck);
 
-/// JSON schema of decks: one alternative a test.
+/// JSON schema of decks and series of one deck: one alternative a test.
 input::Json deck_schema();
 
 } // namespace proveta

@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <fstream>
+#include <vector>
+
 #include "core/input/json.hpp"
 
 namespace proveta {
@@ -35,6 +38,30 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     }
 }
 
+namespace {
+
+// Folders that an earlier series made for its members, by its manifest.
+std::vector<fs::path> members_in(const fs::path& folder) {
+    std::vector<fs::path> out;
+    std::ifstream in(folder / "manifest.json");
+    const auto manifest = input::Json::parse(in, nullptr, false);
+    if (!manifest.is_object() || !manifest.contains("proveta_series_manifest") || !manifest.contains("members")) {
+        return out;
+    }
+    for (const auto& member : manifest["members"]) {
+        if (!member.is_object() || !member.contains("name") || !member["name"].is_string()) {
+            continue;
+        }
+        const fs::path name = member["name"].get<std::string>();
+        if (name.has_filename() && name == name.filename() && fs::exists(folder / name / "manifest.json")) {
+            out.push_back(folder / name);
+        }
+    }
+    return out;
+}
+
+} // namespace
+
 OutputFolder::~OutputFolder() {
     if (!begun_ && !first_made_.empty()) {
         std::error_code ignored;
@@ -44,10 +71,14 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::begin() {
     begun_ = true;
-    for (const char* name : {"report.html", "summary.json", "manifest.json", "curve.csv", "events.csv", "energy.csv", "checkpoint.h5",
-                             "series.pvd", "fields"}) {
+    for (const auto& member : members_in(path_)) {
+        fs::remove_all(member);
+    }
+    for (const char* name : {"report.html", "summary.json", "manifest.json", "curve.csv", "events.csv", "acoustic.csv", "energy.csv",
+                             "checkpoint.h5", "series.pvd", "series.csv", "mean_curves", "fields"}) {
         fs::remove_all(path_ / name);
     }
+    fs::create_directories(path_); // a series that was cleared may have held it
 }
 
 } // namespace proveta

@@ -16,12 +16,14 @@ namespace proveta {
 
 namespace {
 
-// A column of the curve, or of the energies if the curve has none of that name.
+// The curve, or the energies if the curve has no column of this name.
+const report::Table& table_with(const TestData& data, const std::string& name) {
+    const auto& columns = data.curve.columns;
+    return std::any_of(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; }) ? data.curve : data.energy;
+}
+
 std::vector<double> column_of(const TestData& data, const std::string& name, double scale) {
-    const auto has = [&](const report::Table& t) {
-        return std::any_of(t.columns.begin(), t.columns.end(), [&](const auto& c) { return c.name == name; });
-    };
-    auto values = (has(data.curve) ? data.curve : data.energy).values(name);
+    auto values = table_with(data, name).values(name);
     for (double& v : values) {
         v *= scale;
     }
@@ -48,12 +50,13 @@ report::Plot plot_of(const PlotSpec& spec, const TestData& data) {
 // The test's own plots, then what every test shows.
 std::vector<report::Plot> plots(const Protocol& protocol, double sense, const TestData& data) {
     auto specs = protocol.plots();
-    specs.push_back({"Failed bonds.",
-                     "axial strain [%]",
-                     "failed bonds",
-                     sense * 100.0,
-                     1.0,
-                     {{"axial_strain", "broken_in_tension", "in tension", "#c0392b"}, {"axial_strain", "broken_in_shear", "in shear", "#d68910"}}});
+    specs.push_back(
+        {"Failed bonds.",
+         "axial strain [%]",
+         "failed bonds",
+         sense * 100.0,
+         1.0,
+         {{"axial_strain", "broken_in_tension", "in tension", "#c0392b"}, {"axial_strain", "broken_in_shear", "in shear", "#d68910"}}});
     specs.push_back({"Where the work put in went.",
                      "axial strain [%]",
                      "energy [J]",
@@ -154,7 +157,23 @@ report::Table event_table(const std::vector<FailureEvent>& events) {
     return t;
 }
 
-report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::string& status) {
+MainCurve main_curve(const Protocol& protocol, const TestData& data) {
+    const PlotSpec spec = protocol.plots().front();
+    const PlotCurve& curve = spec.curves.front();
+    const auto column = [&](const std::string& name) {
+        const report::Table& table = table_with(data, name);
+        return table.columns[table.column(name)];
+    };
+    return {{column_of(data, curve.x, std::copysign(1.0, spec.x_scale)), column_of(data, curve.y, std::copysign(1.0, spec.y_scale))},
+            column(curve.x),
+            column(curve.y),
+            {spec.title, spec.x_title, spec.y_title, std::fabs(spec.x_scale), std::fabs(spec.y_scale)}};
+}
+
+AcousticRule acoustic_rule(const Bench& bench) { return {2.0 * bench.statistics.mean_radius, bench.wave_speed}; }
+
+report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::vector<AcousticEvent>& acoustic,
+                           const std::string& status) {
     const auto info = deck.protocol->about();
     report::Record r;
     r.title = deck.title;
@@ -163,10 +182,14 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     r.stopped_by = data.stopped_by;
     if (!data.curve.rows.empty()) {
         r.results = deck.protocol->results({data.curve, data.energy, data.events, bench.specimen.shape, bench.press});
-        for (auto& scalar : rate_results(data.curve, bench.press.sense)) {
-            r.results.push_back(std::move(scalar));
+        for (auto&& more : {rate_results(data.curve, bench.press.sense), acoustic_results(acoustic)}) {
+            r.results.insert(r.results.end(), more.begin(), more.end());
         }
         r.plots = plots(*deck.protocol, bench.press.sense, data);
+        if (!acoustic.empty()) {
+            r.plots.push_back(acoustic_activity_plot(acoustic));
+            r.plots.push_back(magnitude_plot(acoustic));
+        }
     }
     r.badges = {quasi_static_verdict(data.curve, bench.press.sense, data.energy, data.rate_check), energy_verdict(data.energy)};
     if (status == "interrupted") {
@@ -214,6 +237,7 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
     j["title"] = r.title;
     j["status"] = r.status;
     j["stopped_by"] = r.stopped_by;
+    j["stages"] = data.stages;
     for (const auto& s : r.results) {
         j["results"][s.name] = {{"value", s.value ? input::Json(*s.value) : input::Json()}, {"unit", s.unit}, {"formula", s.formula}};
     }
@@ -251,6 +275,7 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
     j["time_step_s"] = bench.model->dt();
     const MassScaling& scaling = bench.model->mass_scaling();
     j["mass_scaling"] = {{"added_mass", scaling.added},
+                         {"added_later", scaling.added_later},
                          {"spheres", scaling.spheres},
                          {"largest_factor", scaling.largest_factor},
                          {"stable_step_without_s", scaling.step_before},
@@ -269,11 +294,18 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
 }
 
 std::string text_of(const MassScaling& s) {
-    if (s.spheres == 0) {
+    if (s.spheres == 0 && s.added_later <= 0.0) {
         return "none";
     }
-    return fmt::format("{:.2f} % added mass on {} spheres, at most {:.3g} times the true one; stable step {:.3g} s instead of {:.3g} s",
-                       100.0 * s.added, s.spheres, s.largest_factor, s.step_after, s.step_before);
+    std::string text =
+        s.spheres == 0
+            ? "none at the start"
+            : fmt::format("{:.2f} % added mass on {} spheres, at most {:.3g} times the true one; stable step {:.3g} s instead of {:.3g} s",
+                          100.0 * s.added, s.spheres, s.largest_factor, s.step_after, s.step_before);
+    if (s.added_later > 0.0) {
+        text += fmt::format("; {:.2g} % more in the course of the test, where new contacts pressed", 100.0 * s.added_later);
+    }
+    return text;
 }
 
 std::string as_text(const report::Record& r) {

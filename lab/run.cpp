@@ -25,10 +25,6 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-const char* name(RunStatus status) {
-    return status == RunStatus::complete ? "complete" : status == RunStatus::interrupted ? "interrupted" : "failed";
-}
-
 // Writes field files and keeps the series.
 class FieldSeries {
   public:
@@ -38,6 +34,7 @@ class FieldSeries {
         std::filesystem::create_directories(out_.path() / "fields");
         const auto one = [&](const char* part, const report::Geometry& geometry) {
             const std::string file = fmt::format("fields/{}_{:04}.vtp", part, count_);
+            const std::lock_guard lock(file_libraries());
             report::write_vtp(out_.file(file), geometry);
             entries_.push_back({bench.model->time(), part, file});
         };
@@ -62,43 +59,49 @@ std::string progress_line(const Bench& bench, const TestData& data, double done,
                        rate, 100.0 * done, Progress::duration(seconds * (1.0 / std::max(done, 1e-9) - 1.0)));
 }
 
+void save(const Deck& deck, const Bench& bench, const OutputFolder& out) {
+    const std::lock_guard lock(file_libraries());
+    save_checkpoint(*bench.model, resolved(deck).dump(), out.file("checkpoint.h5"));
+}
+
+void log_set_up(const Bench& bench, double seconds, const RunWatch& watch) {
+    watch.log(fmt::format("{} bonds, {:.2f} a sphere; step {:.3g} s of at most {:.3g} s; set up in {:.1f} s", bench.model->bonds.size(),
+                          bench.coordination, bench.model->dt(), bench.model->stable_step(), seconds));
+    if (const auto& scaling = bench.model->mass_scaling(); scaling.spheres > 0) {
+        watch.log(text_of(scaling));
+    }
+}
+
 } // namespace
 
-RunStatus run_test(const Deck& deck, const RunOptions& options) {
-    OutputFolder out(options.out);
-    Progress progress(options.quiet);
-    const std::string started = now_utc();
-    const auto clock = Clock::now();
+const char* name(RunStatus status) {
+    return status == RunStatus::complete ? "complete" : status == RunStatus::interrupted ? "interrupted" : "failed";
+}
 
-    Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source,
-                                        [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
-    progress.end_line();
-    if (!options.quiet) {
-        spdlog::info("specimen of {} spheres ready after {:.1f} s", specimen.size(), since(clock));
-    }
+std::mutex& file_libraries() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch) {
+    const std::string started = now_utc();
     const auto before_set_up = Clock::now();
     Bench bench = set_up(deck, std::move(specimen));
-    if (!options.quiet) {
-        spdlog::info("{} bonds, {:.2f} a sphere; step {:.3g} s of at most {:.3g} s; set up in {:.1f} s", bench.model->bonds.size(),
-                     bench.coordination, bench.model->dt(), bench.model->stable_step(), since(before_set_up));
-        if (const auto& scaling = bench.model->mass_scaling(); scaling.spheres > 0) {
-            spdlog::info("{}", text_of(scaling));
-        }
-    }
+    log_set_up(bench, since(before_set_up), watch);
 
     out.begin();
     const std::string folder = out.path().string();
-    report::write_json(out.file("manifest.json"), manifest(deck, bench, options.command, "running", started, folder));
+    report::write_json(out.file("manifest.json"), manifest(deck, bench, command, "running", started, folder));
     FieldSeries series(out);
     const auto loading = Clock::now();
     auto saved = Clock::now();
     TestHooks hooks;
     hooks.progress = [&](const TestData& data, double done) {
         if (!data.curve.rows.empty()) {
-            progress.show(progress_line(bench, data, done, since(loading)));
+            watch.progress("loading", progress_line(bench, data, done, since(loading)), done);
         }
         if (deck.output.checkpoint_every > 0.0 && since(saved) > deck.output.checkpoint_every) {
-            save_checkpoint(*bench.model, resolved(deck).dump(), out.file("checkpoint.h5"));
+            save(deck, bench, out);
             saved = Clock::now();
         }
     };
@@ -109,26 +112,49 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     if (deck.protocol->checks_rate() && data.failure.empty() && !data.interrupted) {
         data.rate_check = check_rate(deck, bench.specimen, data.curve, interrupted, [&](const TestData& again, double done) {
             if (!again.curve.rows.empty()) {
-                progress.show("half-rate check: " + progress_line(bench, again, done, since(loading)));
+                watch.progress("half-rate check", progress_line(bench, again, done, since(loading)), done);
             }
         });
     }
-    progress.end_line();
 
     const RunStatus status = !data.failure.empty() ? RunStatus::failed : data.interrupted ? RunStatus::interrupted : RunStatus::complete;
     report::write_file(out.file("curve.csv"), report::to_csv(data.curve));
     report::write_file(out.file("energy.csv"), report::to_csv(data.energy));
     report::write_file(out.file("events.csv"), report::to_csv(event_table(data.events)));
+    const AcousticRule rule = acoustic_rule(bench);
+    const auto acoustic = acoustic_events(data.events, rule);
+    report::write_file(out.file("acoustic.csv"), report::to_csv(acoustic_table(acoustic, rule)));
     if (status != RunStatus::failed) { // a failed state is not worth going on from
-        save_checkpoint(*bench.model, resolved(deck).dump(), out.file("checkpoint.h5"));
+        save(deck, bench, out);
     }
-    const report::Record record = make_record(deck, bench, data, name(status));
-    report::write_json(out.file("manifest.json"), manifest(deck, bench, options.command, name(status), started, folder));
+    report::Record record = make_record(deck, bench, data, acoustic, name(status));
+    report::write_json(out.file("manifest.json"), manifest(deck, bench, command, name(status), started, folder));
     report::write_file(out.file("report.html"), report::to_html(record));
     report::write_json(out.file("summary.json"), summary(record, bench, data, seconds));
-    fmt::print("{}", as_text(record));
-    fmt::print("results in {}\n", folder);
-    return status;
+    return {status, std::move(record), main_curve(*deck.protocol, data)};
+}
+
+RunStatus run_test(const Deck& deck, const RunOptions& options) {
+    OutputFolder out(options.out);
+    Progress progress(options.quiet);
+    const auto clock = Clock::now();
+    const auto log = [&](const std::string& line) {
+        progress.end_line();
+        if (!options.quiet) {
+            spdlog::info("{}", line);
+        }
+    };
+    Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source,
+                                        [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
+    log(fmt::format("specimen of {} spheres ready after {:.1f} s", specimen.size(), since(clock)));
+    const auto show = [&](const std::string& phase, const std::string& figures, double) {
+        progress.show(phase == "loading" ? figures : phase + ": " + figures);
+    };
+    const Finished finished = carry_out(deck, std::move(specimen), out, options.command, {show, log});
+    progress.end_line();
+    fmt::print("{}", as_text(finished.record));
+    fmt::print("results in {}\n", out.path().string());
+    return finished.status;
 }
 
 } // namespace proveta

@@ -1,9 +1,13 @@
 // Running a test from a deck to a folder of results.
 #pragma once
 
+#include <functional>
+#include <mutex>
 #include <string>
 
 #include "lab/deck.hpp"
+#include "lab/output_folder.hpp"
+#include "lab/results.hpp"
 
 namespace proveta {
 
@@ -15,6 +19,31 @@ struct RunOptions {
 
 /// How a run ended.
 enum class RunStatus { complete, interrupted, failed };
+
+/// "complete", "interrupted" or "failed".
+const char* name(RunStatus status);
+
+/// Whoever watches a test. Called from the thread that carries it out.
+struct RunWatch {
+    /// phase: what is going on, "loading" or "half-rate check"; figures: strain, stress and so on; done: share of the phase, 0 to 1.
+    std::function<void(const std::string& phase, const std::string& figures, double done)> progress;
+    std::function<void(const std::string& line)> log;
+};
+
+/// A test that was carried out and whose folder is written.
+struct Finished {
+    RunStatus status = RunStatus::failed;
+    report::Record record;
+    MainCurve curve;
+};
+
+/// Tests a specimen and writes the folder, which is begun once the specimen is in the press. Several threads may do so at once, each with
+/// a folder of its own; the test is worked on by as many threads as OpenMP would give to the calling one. Throws InputError, before
+/// anything is written, when deck and specimen do not fit together.
+Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch);
+
+/// Held while HDF5 or VTK are at work: as usually packaged they are not made for several threads at once.
+std::mutex& file_libraries();
 
 /// Makes or loads the specimen, tests it, writes the folder, prints the results on stdout. Throws InputError before anything is
 /// written when the input is wrong.

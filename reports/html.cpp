@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "reports/svg.hpp"
 
 namespace proveta::report {
@@ -18,12 +20,13 @@ th{background:#f2f5f8}td.num{text-align:right;white-space:nowrap;font-variant-nu
 .badge{border-left:6px solid #1e7b46;background:#eef7f1;padding:.5rem .9rem;margin:.6rem 0}.badge.bad{border-color:#b03a2e;background:#fbeeec}
 .badge b{display:block}.warn{border-left:6px solid #b9770e;background:#fdf4e3;padding:.4rem .9rem;margin:.4rem 0}
 .row{display:flex;flex-wrap:wrap;gap:1rem}.row figure{flex:1 1 200px;max-width:320px;margin:0}
+.scroll{overflow-x:auto}.scroll td:first-child,.scroll th:first-child{position:sticky;left:0;min-width:9rem}.scroll td:first-child{background:#fff}
 .row figure.plot{flex:1 1 440px;max-width:none}.row figure.plot:first-child{flex-basis:100%}
 figcaption{font-size:.85rem;color:#4a5866}
 svg{width:100%;height:auto}code{font-size:.88rem;overflow-wrap:anywhere}
 .status{display:inline-block;padding:.1rem .6rem;border-radius:1rem;background:#1e7b46;color:#fff;font-size:.85rem}.status.bad{background:#b03a2e}
 @media print{body{max-width:none;padding:0}h2{break-after:avoid}figure{break-inside:avoid}}
-@media(max-width:600px){body{padding:.7rem}.scroll{overflow-x:auto}}
+@media(max-width:600px){body{padding:.7rem}}
 )";
 
 std::string results_table(const std::vector<Scalar>& results) {
@@ -37,13 +40,23 @@ std::string results_table(const std::vector<Scalar>& results) {
     return out + "</table></div>\n";
 }
 
+// True for a text that is a number and nothing else.
+bool numeric(const std::string& text) {
+    char* end = nullptr;
+    std::strtod(text.c_str(), &end);
+    return !text.empty() && end == text.c_str() + text.size();
+}
+
 std::string text_table(const TextTable& t) {
     std::string out = fmt::format("<h2>{}</h2>\n<div class=\"scroll\"><table>\n", escape(t.title));
     for (std::size_t k = 0; k < t.rows.size(); ++k) {
         out += "<tr>";
-        for (const auto& cell : t.rows[k]) {
-            const char* tag = k == 0 ? "th" : "td";
-            out += fmt::format("<{0}>{1}</{0}>", tag, escape(cell));
+        for (std::size_t c = 0; c < t.rows[k].size(); ++c) {
+            const std::string& cell = t.rows[k][c];
+            const std::string link = c == 0 && k > 0 && k <= t.links.size() ? t.links[k - 1] : "";
+            const std::string shown = link.empty() ? escape(cell) : fmt::format("<a href=\"{}\">{}</a>", escape(link), escape(cell));
+            out += k == 0 ? fmt::format("<th>{}</th>", shown)
+                          : fmt::format("<td{}>{}</td>", c > 0 && numeric(cell) ? " class=\"num\"" : "", shown);
         }
         out += "</tr>\n";
     }
@@ -62,11 +75,17 @@ std::string to_html(const Record& r) {
     for (const auto& w : r.warnings) {
         out += fmt::format("<p class=\"warn\">{}</p>\n", escape(w));
     }
+    for (const auto& t : r.overview) {
+        out += text_table(t);
+    }
     out += "<h2>Curves</h2>\n<div class=\"row\">\n";
     for (const auto& p : r.plots) {
         out += fmt::format("<figure class=\"plot\">{}<figcaption>{}</figcaption></figure>\n", to_svg(p), escape(p.title));
     }
-    out += "</div>\n<h2>Results</h2>\n" + results_table(r.results);
+    out += "</div>\n";
+    if (!r.results.empty()) {
+        out += "<h2>Results</h2>\n" + results_table(r.results);
+    }
     for (const auto& b : r.badges) {
         out += fmt::format("<div class=\"badge{}\"><b>{}: {}</b>", b.good ? "" : " bad", escape(b.name), escape(b.verdict));
         for (const auto& [name, figure] : b.figures) {

@@ -93,6 +93,7 @@ struct Picture {
 struct TextTable {
     std::string title;
     std::vector<std::vector<std::string>> rows; ///< the first row is the heading
+    std::vector<std::string> links = {};        ///< where the first cells of the rows below the heading lead, relative; empty: nowhere
 };
 
 /// Everything that a page shows.
@@ -101,6 +102,7 @@ struct Record {
     std::string subtitle;
     std::string status; ///< complete, interrupted or failed
     std::string stopped_by;
+    std::vector<TextTable> overview; ///< tables above the curves
     std::vector<Scalar> results;
     std::vector<Badge> badges;
     std::vector<std::string> warnings;

@@ -1,0 +1,35 @@
+// What a series keeps of a test that has been run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/results.hpp"
+#include "lab/series/plan.hpp"
+
+namespace proveta {
+
+struct MemberResult {
+    const Member* member = nullptr;
+    std::string status = "not run"; ///< or complete, interrupted, failed
+    std::string stopped_by;
+    std::vector<report::Scalar> results;
+    std::vector<report::Badge> badges;
+    std::vector<std::string> warnings;
+    std::optional<MainCurve> curve;
+
+    [[nodiscard]] bool complete() const { return status == "complete"; }
+
+    /// A result by name; none when the test has no such result or could not find it.
+    [[nodiscard]] std::optional<double> value(const std::string& name) const {
+        for (const auto& scalar : results) {
+            if (scalar.name == name) {
+                return scalar.value;
+            }
+        }
+        return std::nullopt;
+    }
+};
+
+} // namespace proveta

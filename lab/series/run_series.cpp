@@ -1,0 +1,207 @@
+#include "lab/series/run_series.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <new>
+#include <thread>
+
+#include "lab/progress.hpp"
+#include "lab/provenance.hpp"
+#include "lab/series/expand.hpp"
+#include "lab/series/series_report.hpp"
+#include "lab/series/workers.hpp"
+#include "reports/files.hpp"
+#include "reports/html.hpp"
+
+namespace proveta {
+
+namespace {
+
+// Where the members stand, on one line. Workers write to it.
+class Board {
+  public:
+    Board(const Plan& plan, bool quiet) : plan_(plan), quiet_(quiet), progress_(quiet), state_(plan.members.size()) {}
+
+    // A line while the members are made ready, by one thread.
+    void preparing(const std::string& text) { progress_.show(text); }
+
+    void show(std::size_t k, const std::string& phase, double done) {
+        if (quiet_) {
+            return;
+        }
+        const std::lock_guard lock(mutex_);
+        state_[k] = fmt::format("{}{} {:.0f} %", plan_.members[k].name, phase == "loading" ? "" : " (" + phase + ")", 100.0 * done);
+        std::string line = fmt::format("{} of {} done", ended_, state_.size());
+        for (const auto& running : state_) {
+            line += running.empty() ? "" : " | " + running;
+        }
+        progress_.show(line);
+    }
+
+    void ended(std::size_t k, const MemberResult& result) {
+        const std::lock_guard lock(mutex_);
+        state_[k].clear();
+        ++ended_;
+        progress_.end_line();
+        if (result.status == "failed") {
+            spdlog::error("{}: {}", plan_.members[k].name, result.stopped_by);
+        } else if (!quiet_) {
+            spdlog::info("{} ({}): {}", plan_.members[k].name, result.status, result.stopped_by);
+        }
+    }
+
+    void log(const std::string& line) {
+        progress_.end_line();
+        if (!quiet_) {
+            spdlog::info("{}", line);
+        }
+    }
+
+  private:
+    const Plan& plan_;
+    bool quiet_;
+    Progress progress_;
+    std::mutex mutex_;
+    std::vector<std::string> state_; // of running members
+    std::size_t ended_ = 0;
+};
+
+// Specimens by member; those of one recipe are one.
+struct Specimens {
+    std::vector<std::shared_ptr<const Specimen>> of;
+    std::vector<std::string> hashes;
+    std::size_t largest = 0; // number of spheres
+};
+
+std::string origin_of(const Deck& deck) {
+    const auto& recipe = deck.specimen;
+    return recipe.file.empty() ? input::write(recipe).dump()
+                               : std::filesystem::weakly_canonical(std::filesystem::path(deck.folder) / recipe.file).string();
+}
+
+// Makes or loads the specimens and puts every member into its press once: what a deck and its specimen contradict is found before any of
+// the tests begins, and takes a thousandth of their time. An interrupt leaves the rest out.
+Specimens make_ready(const Plan& plan, Board& board) {
+    Specimens out;
+    std::map<std::string, std::shared_ptr<const Specimen>> made;
+    std::vector<MemberProblem> problems;
+    out.of.resize(plan.members.size());
+    out.hashes.resize(plan.members.size());
+    for (std::size_t k = 0; k < plan.members.size() && !interrupted(); ++k) {
+        const auto& [name, deck] = plan.members[k];
+        try {
+            auto& specimen = made[origin_of(deck)];
+            if (!specimen) {
+                specimen = std::make_shared<const Specimen>(obtain_specimen(deck.specimen, deck.folder, deck.source, [&](double done) {
+                    board.preparing(fmt::format("making the specimen of {}  {:.0f} %", name, 100.0 * done));
+                }));
+            }
+            board.preparing("setting up " + name);
+            out.hashes[k] = hex(set_up(deck, *specimen).specimen_hash);
+            out.of[k] = specimen;
+            out.largest = std::max(out.largest, specimen->size());
+        } catch (const input::InputError& error) {
+            for (const auto& problem : error.problems) {
+                problems.push_back({problem, {}});
+            }
+        }
+    }
+    if (!problems.empty()) {
+        throw input::InputError(merged(problems));
+    }
+    board.log(fmt::format("{} {} for {} tests", made.size(), made.size() == 1 ? "specimen" : "specimens", plan.members.size()));
+    return out;
+}
+
+MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const std::string& command, const RunWatch& watch) {
+    MemberResult result;
+    result.member = &member;
+    try {
+        Finished finished = carry_out(member.deck, std::move(specimen), folder, command, watch);
+        result.status = name(finished.status);
+        result.stopped_by = finished.record.stopped_by;
+        result.results = std::move(finished.record.results);
+        result.badges = std::move(finished.record.badges);
+        result.warnings = std::move(finished.record.warnings);
+        result.curve = std::move(finished.curve);
+    } catch (const std::bad_alloc&) {
+        result.status = "failed";
+        result.stopped_by = "not enough memory";
+    } catch (const std::exception& e) {
+        result.status = "failed";
+        result.stopped_by = e.what();
+    }
+    return result;
+}
+
+// Members one after the other by each of the workers, in the order of the decks.
+std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specimens, std::vector<std::unique_ptr<OutputFolder>>& folders,
+                                      const std::string& command, std::size_t threads, Board& board) {
+    const std::size_t n = plan.members.size();
+    std::vector<MemberResult> results(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        results[k].member = &plan.members[k];
+    }
+    const std::size_t workers = members_at_once(threads, n, memory_of_test(specimens.largest), available_memory());
+    board.log(fmt::format("{} at once on {} {}", workers, threads, threads == 1 ? "thread" : "threads"));
+    std::atomic<std::size_t> next{0};
+    const auto work = [&](std::size_t worker) {
+        omp_set_num_threads(threads_of_worker(worker, workers, threads)); // of this worker's members only
+        for (std::size_t k = next++; k < n && !interrupted(); k = next++) {
+            const auto show = [&](const std::string& phase, const std::string&, double done) { board.show(k, phase, done); };
+            results[k] = run_member(plan.members[k], *specimens.of[k], *folders[k], command, {show, [](const std::string&) {}});
+            board.ended(k, results[k]);
+        }
+    };
+    {
+        std::vector<std::jthread> team;
+        for (std::size_t worker = 0; worker < workers; ++worker) {
+            team.emplace_back(work, worker);
+        }
+    }
+    return results;
+}
+
+} // namespace
+
+RunStatus run_series(const Plan& plan, const RunOptions& options, int threads) {
+    OutputFolder out(options.out);
+    std::vector<std::unique_ptr<OutputFolder>> folders;
+    for (const auto& member : plan.members) {
+        folders.push_back(std::make_unique<OutputFolder>(out.path() / member.name));
+    }
+    const std::string started = now_utc();
+    const std::string folder = out.path().string();
+    Board board(plan, options.quiet);
+    const Specimens specimens = make_ready(plan, board);
+    const auto write_manifest = [&](const std::string& status) {
+        report::write_json(out.file("manifest.json"), series_manifest(plan, specimens.hashes, options.command, status, started, folder));
+    };
+    out.begin();
+    write_manifest("running");
+    auto members = run_members(plan, specimens, folders, options.command, static_cast<std::size_t>(std::max(threads, 1)), board);
+
+    const SeriesResults results = evaluate(std::move(members), interrupted());
+    const report::Record record = series_record(plan, results);
+    for (const auto& group : results.groups) {
+        if (group.mean) {
+            std::filesystem::create_directories(out.path() / "mean_curves");
+            report::write_file(out.file(mean_curve_file(group)), report::to_csv(mean_curve_table(*group.mean, group.of->x, group.of->y)));
+        }
+    }
+    report::write_file(out.file("series.csv"), report::to_csv(series_table(results)));
+    report::write_json(out.file("summary.json"), series_summary(record, results));
+    report::write_file(out.file("report.html"), report::to_html(record));
+    write_manifest(results.status);
+    fmt::print("{}results in {}\n", series_text(record, results), folder);
+    return results.status == "interrupted" ? RunStatus::interrupted : results.status == "failed" ? RunStatus::failed : RunStatus::complete;
+}
+
+} // namespace proveta
