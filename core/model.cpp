@@ -123,8 +123,8 @@ void Model::search() {
     keep_stable();
 }
 
-// What was stable stays the bound, unless new contacts have made the network too stiff for the step. Then the spheres that they press on get
-// more mass, as far as that is allowed, and only beyond that the step is shortened.
+// What was stable stays the bound, unless new contacts have made the network too stiff for the step. Then the spheres that they press on
+// get more mass, as far as that is allowed, and only beyond that the step is shortened.
 void Model::keep_stable() {
     const double share = damping_share(numerics_.damping);
     if (searches_ == 1) {

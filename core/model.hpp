@@ -27,7 +27,8 @@ struct Numerics {
     std::optional<double> time_step; ///< s; empty: safety times the stable step
     double safety = 0.9;             ///< fraction of the bound on the stable step
     double skin = 0.1;               ///< of the neighbour lists, over the mean radius
-    double mass_scaling = 0.0;       ///< largest mass that may be added to spheres that limit the step, over the specimen's; as much again later on
+    double mass_scaling =
+        0.0; ///< largest mass that may be added to spheres that limit the step, over the specimen's; as much again later on
     BackgroundDamping damping;
     Scheme scheme = Scheme::velocity_verlet;
     Vec3 gravity = Vec3::Zero(); ///< m/s2

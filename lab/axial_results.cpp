@@ -45,20 +45,19 @@ std::vector<report::Scalar> elastic_results(const Loading& l) {
     const double peak = l.deviator.empty() ? 0.0 : l.deviator[peak_index(l.deviator)];
     const auto slope = [](const std::optional<Line>& x) { return x ? std::optional(x->slope) : std::nullopt; };
     const auto toe = travel && travel->slope > 0.0 ? std::optional(-travel->intercept / travel->slope) : std::nullopt;
-    return {
-        {"young_modulus", "Young's modulus E", slope(line), "Pa",
-         "slope of deviatoric stress over middle gauge strain, 10 % to 33 % of the peak deviator (EN 12390-13)"},
-        {"young_modulus_platens", "Modulus from platen travel", slope(travel), "Pa", "the same with platen travel as strain"},
-        {"tangent_modulus", "Tangent modulus at 50 %", slope_between(l.gauge, l.deviator, 0.4, 0.6), "Pa",
-         "slope between 40 % and 60 % of the peak deviator (ASTM D7012)"},
-        {"secant_modulus", "Secant modulus at 50 %", half ? std::optional(0.5 * peak / *half) : std::nullopt, "Pa",
-         "half the peak deviator over its gauge strain (ASTM D7012)"},
-        {"average_modulus", "Average modulus", slope_between(l.gauge, l.deviator, 0.2, 0.6), "Pa",
-         "slope of the straighter part, 20 % to 60 % of the peak deviator (ASTM D7012)"},
-        {"poisson_ratio", "Poisson's ratio", line && lateral ? std::optional(-line->slope / *lateral) : std::nullopt, "",
-         "minus circumferential over gauge axial strain, 10 % to 33 % of the peak deviator"},
-        {"toe_strain", "Toe of the platens' curve", toe, "",
-         "where the straight part (10 % to 33 %), drawn on, meets zero deviator; strains above are not corrected by it"}};
+    return {{"young_modulus", "Young's modulus E", slope(line), "Pa",
+             "slope of deviatoric stress over middle gauge strain, 10 % to 33 % of the peak deviator (EN 12390-13)"},
+            {"young_modulus_platens", "Modulus from platen travel", slope(travel), "Pa", "the same with platen travel as strain"},
+            {"tangent_modulus", "Tangent modulus at 50 %", slope_between(l.gauge, l.deviator, 0.4, 0.6), "Pa",
+             "slope between 40 % and 60 % of the peak deviator (ASTM D7012)"},
+            {"secant_modulus", "Secant modulus at 50 %", half ? std::optional(0.5 * peak / *half) : std::nullopt, "Pa",
+             "half the peak deviator over its gauge strain (ASTM D7012)"},
+            {"average_modulus", "Average modulus", slope_between(l.gauge, l.deviator, 0.2, 0.6), "Pa",
+             "slope of the straighter part, 20 % to 60 % of the peak deviator (ASTM D7012)"},
+            {"poisson_ratio", "Poisson's ratio", line && lateral ? std::optional(-line->slope / *lateral) : std::nullopt, "",
+             "minus circumferential over gauge axial strain, 10 % to 33 % of the peak deviator"},
+            {"toe_strain", "Toe of the platens' curve", toe, "",
+             "where the straight part (10 % to 33 %), drawn on, meets zero deviator; strains above are not corrected by it"}};
 }
 
 std::vector<report::Scalar> softening_results(const Loading& l) {

@@ -25,7 +25,7 @@ struct Bench {
     double wave_speed = 0.0;               ///< sqrt(a E / rho) of the deck's material, m/s
     std::uint64_t specimen_hash = 0;
     std::vector<std::uint8_t> skin; ///< of the model's spheres, in its order
-    Press press; ///< its platens and pressures are the model's
+    Press press;                    ///< its platens and pressures are the model's
     std::unique_ptr<Model> model;
 };
 

@@ -41,13 +41,15 @@ void check_confinement(const Confinement& c, const Deck& deck, input::Problems& 
     }
     const Card& card = deck.material.values;
     const double compliance = (1.0 - 2.0 * card.poisson_ratio) / card.young_modulus;
-    const double speed = 0.5 * std::numbers::pi * c.pressure / c.ramp.number * compliance * deck.specimen.height; // steepest point of the ramp
+    const double speed =
+        0.5 * std::numbers::pi * c.pressure / c.ramp.number * compliance * deck.specimen.height; // steepest point of the ramp
     if (speed > c.speed_limit) {
-        problems.push_back({deck.source, "/loading/pressure_ramp", input::format_quantity(c.ramp.number, input::Unit::time),
-                            fmt::format("a ramp that the platens can follow: {} in this time asks for {:.3g} m/s, beyond the limit of {:.3g} m/s",
-                                        input::format_quantity(c.pressure, input::Unit::pressure), speed, c.speed_limit),
-                            fmt::format("at least {}, or a higher servo_speed_limit, or \"auto\"",
-                                        input::format_quantity(c.ramp.number * speed / c.speed_limit, input::Unit::time))});
+        problems.push_back(
+            {deck.source, "/loading/pressure_ramp", input::format_quantity(c.ramp.number, input::Unit::time),
+             fmt::format("a ramp that the platens can follow: {} in this time asks for {:.3g} m/s, beyond the limit of {:.3g} m/s",
+                         input::format_quantity(c.pressure, input::Unit::pressure), speed, c.speed_limit),
+             fmt::format("at least {}, or a higher servo_speed_limit, or \"auto\"",
+                         input::format_quantity(c.ramp.number * speed / c.speed_limit, input::Unit::time))});
     }
 }
 
@@ -56,7 +58,8 @@ std::vector<Stage> isotropic_stages(const Confinement& c, const BenchView& bench
         return {};
     }
     const double ramp = c.ramp.word.empty() ? c.ramp.number : crossings * bench.crossing();
-    return {isotropic_stage(bench, c.pressure, ramp, c.speed_limit, share, pace), hold_stage(bench, c.pressure, c.speed_limit, 0.2 * share)};
+    return {isotropic_stage(bench, c.pressure, ramp, c.speed_limit, share, pace),
+            hold_stage(bench, c.pressure, c.speed_limit, 0.2 * share)};
 }
 
 } // namespace proveta

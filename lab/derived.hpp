@@ -34,8 +34,8 @@ std::optional<double> x_at_share(const std::vector<double>& x, const std::vector
 /// y where x first reaches a value, by linear interpolation; empty when it never does.
 std::optional<double> y_at(const std::vector<double>& x, const std::vector<double>& y, double at);
 
-/// Offset yield: the first y that lies below the line of slope `modulus` through the foot of `line`, shifted by `offset` along x. Empty when
-/// there is none.
+/// Offset yield: the first y that lies below the line of slope `modulus` through the foot of `line`, shifted by `offset` along x. Empty
+/// when there is none.
 std::optional<double> offset_yield(const std::vector<double>& x, const std::vector<double>& y, const Line& line, double offset);
 
 /// The loading of a test, off which unloading and reloading, and stages that only prepare it, are left. Strains and stresses in the sense

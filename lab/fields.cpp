@@ -87,7 +87,8 @@ report::Geometry bond_fields(const Bench& bench) {
 
 namespace {
 
-// Outline of a face: flat and across z a disc, otherwise a strip of rectangles along z, as wide as the face or a little wider than the specimen.
+// Outline of a face: flat and across z a disc, otherwise a strip of rectangles along z, as wide as the face or a little wider than the
+// specimen.
 std::vector<std::vector<Vec3>> outline(const Platen& p, const Shape& shape) {
     const double size = 0.6 * (shape.kind == ShapeKind::prism ? std::hypot(shape.width, shape.depth) : shape.lateral_size());
     constexpr int corners = 48;
@@ -102,7 +103,8 @@ std::vector<std::vector<Vec3>> outline(const Platen& p, const Shape& shape) {
     }
     const Vec3 across = Vec3::UnitZ().cross(p.face.axis);
     const double half = std::min(p.face.half_width, size);
-    const bool ring = p.face.curvature > 0.0 && p.face.half_width == Face::boundless && p.position * p.face.inward * p.face.curvature < -0.999;
+    const bool ring =
+        p.face.curvature > 0.0 && p.face.half_width == Face::boundless && p.position * p.face.inward * p.face.curvature < -0.999;
     const auto at = [&](int k) {
         const double along = 2.0 * k / corners - 1.0;
         if (p.face.curvature == 0.0) {
@@ -152,9 +154,9 @@ double quantile(std::vector<double> values, double share) {
 
 // The plane of a picture: along the axis of a specimen that is pressed there; across the axis, the load upright, of one that is split.
 struct Plane {
-    int right, up, out;    // components
-    double middle = 0.0;   // of the third, m
-    double raise = 0.0;    // of the picture's base, m
+    int right, up, out;  // components
+    double middle = 0.0; // of the third, m
+    double raise = 0.0;  // of the picture's base, m
 };
 
 Plane plane_of(const Bench& bench) {
@@ -218,7 +220,7 @@ report::Picture slice(const Bench& bench, const std::string& title) {
     for (auto& line : p.lines) {
         line.weight /= std::max(widest, 1e-300);
     }
-    p.caption = m.spheres.planar      ? "The plate."
+    p.caption = m.spheres.planar    ? "The plate."
                 : bench.press.bands ? "Slice through the axis, two mean radii thick."
                                     : "Slice at mid-thickness, two mean radii thick, loaded from above and below.";
     if (farthest > 0.0) {

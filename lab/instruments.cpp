@@ -121,33 +121,35 @@ report::Table Instruments::empty_curve() const {
     report::Table t;
     t.notes = {"Compression is positive in stress and strain; lateral strain is positive when the specimen gets thinner.",
                "Stress is force over the nominal area before the test."};
-    t.columns = {{"time", "s", "time since the start of loading"},
-                 {"stage", "", "number of the stage, from 0"},
-                 {"phase", "", "0 preparing the loading, 1 loading, 2 unloading or reloading"},
-                 {"axial_strain", "", "closing of the platens over their distance at the start"},
-                 {"axial_stress", "Pa", "total axial stress: mean of both platens' force over the nominal area"},
-                 {"deviatoric_stress", "Pa", "axial minus lateral stress"},
-                 {"lateral_stress", "Pa", "confining pressure, or mean of what the side presses on a ring"},
-                 {"gauge_axial_strain", "", "shortening of the middle gauge length along the loading"},
-                 {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin, or of the gauge across the loading"},
-                 {"volumetric_strain", "", "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
-                 {"force_bottom", "N", "force on the first (lower) platen"},
-                 {"force_top", "N", "force on the second (upper) platen"},
-                 {"inner_strain_xx", "", "mean strain of the inner region, from the displacements of its spheres"},
-                 {"inner_strain_yy", "", "the same"},
-                 {"inner_strain_zz", "", "the same"},
-                 {"inner_stress_xx", "Pa", "Love-Weber stress averaged over the inner region"},
-                 {"inner_stress_yy", "Pa", "the same"},
-                 {"inner_stress_zz", "Pa", "the same"},
-                 {"inner_stress_xy", "Pa", "the same"},
-                 {"inner_stress_yz", "Pa", "the same"},
-                 {"inner_stress_zx", "Pa", "the same"},
-                 {"middle_stress", "Pa", "Love-Weber stress along the loading over the whole section, middle 60 % of the height; of a disc the inner region's"},
-                 {"broken_bonds", "", "failed bonds so far"},
-                 {"broken_in_tension", "", "of these in tension"},
-                 {"broken_in_shear", "", "of these in shear"},
-                 {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"},
-                 {"rate", "m/s", "closing speed of the platens, negative when they part"}};
+    t.columns = {
+        {"time", "s", "time since the start of loading"},
+        {"stage", "", "number of the stage, from 0"},
+        {"phase", "", "0 preparing the loading, 1 loading, 2 unloading or reloading"},
+        {"axial_strain", "", "closing of the platens over their distance at the start"},
+        {"axial_stress", "Pa", "total axial stress: mean of both platens' force over the nominal area"},
+        {"deviatoric_stress", "Pa", "axial minus lateral stress"},
+        {"lateral_stress", "Pa", "confining pressure, or mean of what the side presses on a ring"},
+        {"gauge_axial_strain", "", "shortening of the middle gauge length along the loading"},
+        {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin, or of the gauge across the loading"},
+        {"volumetric_strain", "", "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
+        {"force_bottom", "N", "force on the first (lower) platen"},
+        {"force_top", "N", "force on the second (upper) platen"},
+        {"inner_strain_xx", "", "mean strain of the inner region, from the displacements of its spheres"},
+        {"inner_strain_yy", "", "the same"},
+        {"inner_strain_zz", "", "the same"},
+        {"inner_stress_xx", "Pa", "Love-Weber stress averaged over the inner region"},
+        {"inner_stress_yy", "Pa", "the same"},
+        {"inner_stress_zz", "Pa", "the same"},
+        {"inner_stress_xy", "Pa", "the same"},
+        {"inner_stress_yz", "Pa", "the same"},
+        {"inner_stress_zx", "Pa", "the same"},
+        {"middle_stress", "Pa",
+         "Love-Weber stress along the loading over the whole section, middle 60 % of the height; of a disc the inner region's"},
+        {"broken_bonds", "", "failed bonds so far"},
+        {"broken_in_tension", "", "of these in tension"},
+        {"broken_in_shear", "", "of these in shear"},
+        {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"},
+        {"rate", "m/s", "closing speed of the platens, negative when they part"}};
     return t;
 }
 
@@ -182,8 +184,8 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
     const Mat3 stretched = mean_strain(m);
     const Vec3 along = m.platens[0].face.axis;
     const Vec3 across = Vec3::UnitZ().cross(along);
-    const double gauge = press.bands ? (mean_rise(m, lower_) - mean_rise(m, upper_)) / (upper_.height - lower_.height)
-                                     : along.dot(stretched * along);
+    const double gauge =
+        press.bands ? (mean_rise(m, lower_) - mean_rise(m, upper_)) / (upper_.height - lower_.height) : along.dot(stretched * along);
     const double girth = press.bands ? girth_strain(m) : across.dot(stretched * across);
     const double volume = press.bands ? gauge + (m.spheres.planar ? 1.0 : 2.0) * girth : stretched.trace();
     double held = 0.0;

@@ -52,10 +52,10 @@ class Instruments {
     std::vector<std::size_t> girth_;   // lateral skin at mid-height
     std::vector<double> girth_radius_; // their distance from the axis at the start, m
     Shape::Region inner_;
-    Shape::Region middle_; // the whole section over the middle of the height
+    Shape::Region middle_;            // the whole section over the middle of the height
     std::vector<std::size_t> inside_; // spheres of the inner region
-    std::vector<std::uint8_t> off_; // detached spheres
-    std::size_t off_at_ = 0;        // number of failed bonds that it was found for
+    std::vector<std::uint8_t> off_;   // detached spheres
+    std::size_t off_at_ = 0;          // number of failed bonds that it was found for
     std::size_t broken_tension_ = 0;
     std::size_t broken_shear_ = 0;
 };

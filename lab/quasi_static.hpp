@@ -8,9 +8,9 @@
 
 namespace proveta {
 
-/// Judges the samples between a fifth of the peak stress (of what the loading added, if it began under stress) and the peak: forces of both platens within 2 % of their mean, kinetic energy
-/// below 1 % of the elastic, unbalanced force ratio below 1 %; and, where the rate was checked, the peak within 3 % of that at half the
-/// rate.
+/// Judges the samples between a fifth of the peak stress (of what the loading added, if it began under stress) and the peak: forces of both
+/// platens within 2 % of their mean, kinetic energy below 1 % of the elastic, unbalanced force ratio below 1 %; and, where the rate was
+/// checked, the peak within 3 % of that at half the rate.
 report::Badge quasi_static_verdict(const report::Table& curve, double sense, const report::Table& energy,
                                    const std::optional<RateCheck>& check = std::nullopt);
 

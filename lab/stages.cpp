@@ -23,7 +23,8 @@ void declare(input::Visitor& v, StopRules& r) {
              "share of the peak deviatoric stress whose loss ends the test; 1: never");
     v.number_or_word("time", r.time, {{"never", "however long it takes"}}, Unit::time, {0.0, 1e6, true, false},
                      "time of the test, as a clock in the laboratory would show it, at which it ends");
-    v.choice("parted", r.parted, {{"go_on", "a parted specimen is loaded on"}, {"stop", "ends when no piece reaches from platen to platen"}},
+    v.choice("parted", r.parted,
+             {{"go_on", "a parted specimen is loaded on"}, {"stop", "ends when no piece reaches from platen to platen"}},
              "all bonds of some section have failed");
 }
 
@@ -105,11 +106,13 @@ void declare_axial(input::Visitor& v, AxialLoading& l, bool with_girth) {
              "confirmation that the rate does not matter");
     v.list("cycles", l.cycles, "unloading and reloading, in the order in which the loading meets them");
     if (with_girth) {
-        v.choice("control", l.control,
-                 {{"platens", "the closing of the platens leads the whole test"},
-                  {"girth", "from the first failed bonds on, the circumferential gauge does: the platens give way when cracks open too fast"}},
-                 "what leads the test");
-        v.number_or_word("girth_rate", l.girth_rate, {{"auto", "that of an elastic specimen closing by a hundredth of its strain while a wave crosses it"}}, Unit::none,
+        v.choice(
+            "control", l.control,
+            {{"platens", "the closing of the platens leads the whole test"},
+             {"girth", "from the first failed bonds on, the circumferential gauge does: the platens give way when cracks open too fast"}},
+            "what leads the test");
+        v.number_or_word("girth_rate", l.girth_rate,
+                         {{"auto", "that of an elastic specimen closing by a hundredth of its strain while a wave crosses it"}}, Unit::none,
                          {0.0, 1e4, true, false}, "growth of the circumferential strain under \"control\": \"girth\", 1/s");
     }
 }
@@ -126,7 +129,8 @@ void check_axial(const AxialLoading& l, double limit, const std::string& source,
         } else if (by_strain) {
             if (c.axial_strain.number <= last) {
                 problems.push_back({source, path + "/axial_strain", fmt::format("{:.4g}", c.axial_strain.number),
-                                    fmt::format("more than {:.4g}, the strain of the cycle before", last), "list cycles in ascending order"});
+                                    fmt::format("more than {:.4g}, the strain of the cycle before", last),
+                                    "list cycles in ascending order"});
             } else if (c.axial_strain.number >= limit) {
                 problems.push_back({source, path + "/axial_strain", fmt::format("{:.4g}", c.axial_strain.number),
                                     fmt::format("less than {:.4g}, at which the test ends", limit), "raise stop.axial_strain"});
@@ -174,12 +178,11 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
     for (std::size_t k = 0; k < l.cycles.size(); ++k) {
         const Cycle c = l.cycles[k];
         const bool by_strain = c.axial_strain.word.empty();
-        stages.push_back({"loading", Stage::Kind::loading, target.share * (by_strain ? c.axial_strain.number / target.strain : 0.3), control,
-                          [=](const BenchView& b) {
+        stages.push_back({"loading", Stage::Kind::loading, target.share * (by_strain ? c.axial_strain.number / target.strain : 0.3),
+                          control, [=](const BenchView& b) {
                               path->turned_strain = strain(b);
                               path->turned_stress = deviator(b);
-                              return by_strain ? path->turned_strain / c.axial_strain.number
-                                               : path->turned_stress / c.axial_stress.number;
+                              return by_strain ? path->turned_strain / c.axial_strain.number : path->turned_stress / c.axial_stress.number;
                           }});
         stages.push_back({fmt::format("unloading {}", k + 1), Stage::Kind::cycling, target.share * cycle_share,
                           std::make_shared<Unloading>(unloading, pace, target.pressure), [=](const BenchView& b) {
@@ -191,7 +194,8 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
     const auto to_end = [=](const BenchView& b) { return strain(b) / target.strain; };
     if (l.control == "girth") {
         stages.push_back({"loading", Stage::Kind::loading, 0.3 * target.share, control, [=](const BenchView& b) {
-                              const double failed = static_cast<double>(b.model.broken()) / (0.001 * static_cast<double>(b.model.bonds.size()));
+                              const double failed =
+                                  static_cast<double>(b.model.broken()) / (0.001 * static_cast<double>(b.model.bonds.size()));
                               return std::max(failed, to_end(b));
                           }});
         const double rate = l.girth_rate.word.empty() ? pace * l.girth_rate.number : 0.0;

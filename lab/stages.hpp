@@ -80,7 +80,8 @@ double lowest_tensile_strain(const Bonds& bonds);
 /// What a servo of the platens' stress needs to know of the specimen.
 StressServo::Settings servo_settings(const BenchView& bench, double speed_limit);
 
-/// A stage under a stress that grows on all sides from zero to `pressure` along half a cosine during `ramp` seconds, the platens led by a servo.
+/// A stage under a stress that grows on all sides from zero to `pressure` along half a cosine during `ramp` seconds, the platens led by a
+/// servo.
 Stage isotropic_stage(const BenchView& bench, double pressure, double ramp, double speed_limit, double share, double pace);
 /// The same stress held for some crossings of a wave.
 Stage hold_stage(const BenchView& bench, double pressure, double speed_limit, double share);

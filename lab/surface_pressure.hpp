@@ -6,8 +6,8 @@
 
 namespace proveta {
 
-/// Pressure on the lateral surface, normalised to its true area; it follows the specimen. Throws std::invalid_argument when there are too few
-/// spheres at the side.
+/// Pressure on the lateral surface, normalised to its true area; it follows the specimen. Throws std::invalid_argument when there are too
+/// few spheres at the side.
 Pressure lateral_pressure(const Shape& shape, const Spheres& spheres);
 
 /// The same on one end: the upper one for outward = +1, the lower for -1.

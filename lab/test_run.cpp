@@ -59,8 +59,8 @@ double phase_of(Stage::Kind kind) {
 class Run {
   public:
     Run(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant)
-        : deck_(deck), bench_(bench), hooks_(hooks), variant_(variant), model_(*bench.model), instruments_(bench),
-          view_{model_, bench.specimen.shape, bench.press, instruments_, bench.wave_speed, data_.curve} {
+        : deck_(deck), bench_(bench), hooks_(hooks), variant_(variant), model_(*bench.model),
+          instruments_(bench), view_{model_, bench.specimen.shape, bench.press, instruments_, bench.wave_speed, data_.curve} {
         data_.curve = instruments_.empty_curve();
         data_.energy = instruments_.empty_energy();
     }

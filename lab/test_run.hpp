@@ -19,7 +19,7 @@ struct TestData {
     report::Table energy;
     std::vector<FailureEvent> events;
     std::vector<report::Picture> pictures; ///< before, at peak, 20 % past it, at the end
-    std::vector<std::string> stages; ///< names of those that were begun
+    std::vector<std::string> stages;       ///< names of those that were begun
     std::string stopped_by;
     std::optional<RateCheck> rate_check; ///< empty: none was made
     std::string failure;                 ///< non-empty: the calculation failed, and how

@@ -100,7 +100,8 @@ SurfaceNet side_net(const Shape& shape, const Spheres& s) {
         net.normal.push_back(side_normal(shape, at));
         points.push_back({way_around(shape, at), level});
     }
-    // The side closes in itself: half of the points once more on either side, and of equal facets the one whose middle is on the first round.
+    // The side closes in itself: half of the points once more on either side, and of equal facets the one whose middle is on the first
+    // round.
     const std::size_t n = points.size();
     const double round = girth(shape);
     for (std::size_t k = 0; k < n; ++k) {
@@ -109,7 +110,8 @@ SurfaceNet side_net(const Shape& shape, const Spheres& s) {
     for (const auto& f : triangulate(points)) {
         const double middle = (points[f[0]].u + points[f[1]].u + points[f[2]].u) / 3.0;
         if (middle >= 0.0 && middle < round) {
-            net.facets.push_back({f[0] % static_cast<std::uint32_t>(n), f[1] % static_cast<std::uint32_t>(n), f[2] % static_cast<std::uint32_t>(n)});
+            net.facets.push_back(
+                {f[0] % static_cast<std::uint32_t>(n), f[1] % static_cast<std::uint32_t>(n), f[2] % static_cast<std::uint32_t>(n)});
         }
     }
     if (shape.planar() || net.facets.size() < 12) {

@@ -31,9 +31,9 @@ struct PlatenSums {
 struct Face {
     static constexpr double boundless = std::numeric_limits<double>::infinity();
 
-    Vec3 axis = Vec3::UnitZ();   ///< unit vector; of a hollow face across z
-    double inward = 1.0;         ///< the specimen lies on this side of the position, +1 or -1
-    double curvature = 0.0;      ///< of a hollow face: 1 / radius, 1/m; 0: flat
+    Vec3 axis = Vec3::UnitZ();     ///< unit vector; of a hollow face across z
+    double inward = 1.0;           ///< the specimen lies on this side of the position, +1 or -1
+    double curvature = 0.0;        ///< of a hollow face: 1 / radius, 1/m; 0: flat
     double half_width = boundless; ///< reach on both sides of the axis, along z x axis, m
 
     /// Where a point is seen from the face.
@@ -51,7 +51,8 @@ struct Face {
         const Vec3 out(point.x() - line.x(), point.y() - line.y(), 0.0);
         const double r = out.norm();
         const bool within = half_width == boundless || std::fabs(Vec3::UnitZ().cross(axis).dot(out)) <= half_width;
-        return {1.0 / curvature - r, r > 0.0 ? Vec3(-out / r) : Vec3(inward * axis), within && (half_width == boundless || out.dot(axis) * inward <= 0.0)};
+        return {1.0 / curvature - r, r > 0.0 ? Vec3(-out / r) : Vec3(inward * axis),
+                within && (half_width == boundless || out.dot(axis) * inward <= 0.0)};
     }
 };
 

@@ -14,9 +14,9 @@ Vec3 area_of(const Spheres& spheres, const Pressure& p, std::uint32_t k) {
     Vec3 sum = Vec3::Zero();
     for (auto e = p.offset[k]; e < p.offset[k + 1]; ++e) {
         const auto [b, c] = p.others[e];
-        sum += (corner(spheres, p, b) - own).cross(corner(spheres, p, c) - own);
+        sum += p.share[e] * (corner(spheres, p, b) - own).cross(corner(spheres, p, c) - own);
     }
-    return p.scale / 6.0 * sum;
+    return 0.5 * p.scale * sum;
 }
 
 } // namespace
@@ -32,9 +32,13 @@ Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere,
             of[f[c]].push_back({f[(c + 1) % 3], f[(c + 2) % 3]});
         }
     }
+    const auto section = [&](std::uint32_t k) { return spheres.section(static_cast<std::size_t>(p.sphere[k])); };
     p.offset.push_back(0);
-    for (const auto& list : of) {
-        p.others.insert(p.others.end(), list.begin(), list.end());
+    for (std::uint32_t k = 0; k < of.size(); ++k) {
+        for (const auto& other : of[k]) {
+            p.others.push_back(other);
+            p.share.push_back(section(k) / (section(k) + section(other[0]) + section(other[1])));
+        }
         p.offset.push_back(static_cast<std::uint32_t>(p.others.size()));
     }
     p.force.resize(p.sphere.size());

@@ -15,15 +15,17 @@ namespace proveta {
 /// Triangle of a surface: positions in the list of surface spheres, counterclockwise seen from outside.
 using Facet = std::array<std::uint32_t, 3>;
 
-/// A pressure on a net of facets. Each facet's force -p A n, with its present area A and outward normal n, goes in thirds to its spheres.
+/// A pressure on a net of facets. Each facet's force -p A n, with its present area A and outward normal n, is shared out among its spheres
+/// in proportion to their sections: a small sphere between large ones lies in their shelter.
 struct Pressure {
     double value = 0.0;               ///< Pa, positive presses inwards
     std::vector<std::int32_t> sphere; ///< ascending
     std::vector<double> raise;        ///< by which a sphere of the rim is lifted to where the surface ends, m; one a sphere
-    double scale = 1.0;               ///< true surface over that of the net, seen along the true normals, at the start: centres lie below it
-    std::vector<std::uint32_t> offset;                   ///< of each sphere into `others`, and the end
-    std::vector<std::array<std::uint32_t, 2>> others;    ///< the other corners of its facets, in their order
-    VectorField force;                                   ///< of the last step, N
+    double scale = 1.0; ///< true surface over that of the net, seen along the true normals, at the start: centres lie below it
+    std::vector<std::uint32_t> offset;                ///< of each sphere into `others`, and the end
+    std::vector<std::array<std::uint32_t, 2>> others; ///< the other corners of its facets, in their order
+    std::vector<double> share;                        ///< of each such facet's area that the sphere takes
+    VectorField force;                                ///< of the last step, N
 };
 
 /// A pressure on the given facets. spheres: the model's, at the start; sphere, raise: as in Pressure; normal: of the true surface, outward,

@@ -48,7 +48,8 @@ void RateControl::observe(const RateReading& r) {
     const double base = slow_from_ > 0.0 ? slow_from_ : strain_;
     if (strain_ > 0.5 * scale_.first_damage) { // at the start nothing is stored yet, and nothing can break
         const auto limit = [&](double found, double allowed) { return found > allowed ? allowed / found : 1.0; };
-        share *= std::sqrt(limit(r.kinetic, most_kinetic * r.elastic)) * limit(r.unbalanced, most_unbalanced) * limit(r.imbalance, most_imbalance);
+        share *= std::sqrt(limit(r.kinetic, most_kinetic * r.elastic)) * limit(r.unbalanced, most_unbalanced) *
+                 limit(r.imbalance, most_imbalance);
     }
     share = std::max(share, lowest * eta_slow / eta_fast);
     aim_ = pace_ * share * std::max(eta_fast * base, first_speed * scale_.first_damage);

@@ -15,7 +15,7 @@ constexpr double proportional = 0.4;
 constexpr double integral = 0.04;
 constexpr double memory = 2.0; // crossings over which the speed is averaged that the clock goes by
 
-constexpr double slow = 0.01;      // of the strain, per crossing
+constexpr double slow = 0.01; // of the strain, per crossing
 constexpr double girth_gain = 0.3;
 constexpr double girth_lag = 0.5; // crossings over which the speed follows what the loop asks for
 

@@ -21,7 +21,8 @@ class StressServo : public Control {
     };
 
     /// pressure: p in Pa over the clock's time since the stage began, s.
-    StressServo(std::function<double(double time)> pressure, const Settings& settings) : pressure_(std::move(pressure)), settings_(settings) {}
+    StressServo(std::function<double(double time)> pressure, const Settings& settings)
+        : pressure_(std::move(pressure)), settings_(settings) {}
 
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
@@ -36,13 +37,13 @@ class StressServo : public Control {
     double integral_ = 0.0; // of the error, Pa s
 };
 
-/// Closed loop on the girth: the platens move, back if need be, so that the circumferential gauge grows at a steady rate. This is what keeps
-/// a brittle specimen from running away past its peak, where no steady closing is stable.
+/// Closed loop on the girth: the platens move, back if need be, so that the circumferential gauge grows at a steady rate. This is what
+/// keeps a brittle specimen from running away past its peak, where no steady closing is stable.
 class GirthServo : public Control {
   public:
-    /// rate: growth of the girth, strain per s; 0: as fast as the platens may then close. lateral: circumferential over axial strain that the
-    /// loop reckons with; pressure on the side, Pa. The platens close no faster than when the loop took over, nor than a hundredth of the strain
-    /// then per crossing of a wave, so that they can still turn back while a crack runs.
+    /// rate: growth of the girth, strain per s; 0: as fast as the platens may then close. lateral: circumferential over axial strain that
+    /// the loop reckons with; pressure on the side, Pa. The platens close no faster than when the loop took over, nor than a hundredth of
+    /// the strain then per crossing of a wave, so that they can still turn back while a crack runs.
     GirthServo(double rate, double lateral, double pressure) : rate_(rate), lateral_(lateral), pressure_(pressure) {}
 
     void begin(const BenchView& bench, const Drive& last) override;

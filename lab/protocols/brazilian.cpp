@@ -22,14 +22,15 @@ class Brazilian : public Protocol {
 
     // 1. The standard: what it mimics and where it cannot.
     [[nodiscard]] ProtocolInfo about() const override {
-        return {"brazilian",
-                "Brazilian splitting",
-                "A disc is pressed along a diameter (the x axis) between flat platens, curved jaws or loading strips until it splits.",
-                {{"ASTM D3967", "disc between flat platens or jaws, tensile strength 2P/(pi D t)",
-                  "no cardboard cushion; strips instead; thickness over diameter 0.6 where the standard asks for 0.2 to 0.75"},
-                 {"ASTM C496, EN 12390-6", "150 mm disc, loading strips of a tenth to a sixth of the diameter, the same formula",
-                  "strips are rigid and follow the disc's surface; no creep of plywood or hardboard"},
-                 {"ISRM 1978", "curved jaws of one and a half times the disc's radius", "no masking tape around the disc; no spherical seat"}}};
+        return {
+            "brazilian",
+            "Brazilian splitting",
+            "A disc is pressed along a diameter (the x axis) between flat platens, curved jaws or loading strips until it splits.",
+            {{"ASTM D3967", "disc between flat platens or jaws, tensile strength 2P/(pi D t)",
+              "no cardboard cushion; strips instead; thickness over diameter 0.6 where the standard asks for 0.2 to 0.75"},
+             {"ASTM C496, EN 12390-6", "150 mm disc, loading strips of a tenth to a sixth of the diameter, the same formula",
+              "strips are rigid and follow the disc's surface; no creep of plywood or hardboard"},
+             {"ISRM 1978", "curved jaws of one and a half times the disc's radius", "no masking tape around the disc; no spherical seat"}}};
     }
 
     void suggest(SpecimenRecipe& recipe) const override {
@@ -56,7 +57,8 @@ class Brazilian : public Protocol {
     void check(const Deck& deck, input::Problems& problems) const override {
         if (deck.specimen.file.empty()) {
             if (deck.specimen.shape != "disc" && deck.specimen.shape != "cylinder") {
-                problems.push_back({deck.source, "/specimen/shape", "\"" + deck.specimen.shape + "\"", "\"disc\": the test splits a round specimen", ""});
+                problems.push_back(
+                    {deck.source, "/specimen/shape", "\"" + deck.specimen.shape + "\"", "\"disc\": the test splits a round specimen", ""});
             }
             if (deck.specimen.spheres < 100) {
                 problems.push_back({deck.source, "/specimen/spheres", std::to_string(deck.specimen.spheres),
@@ -74,7 +76,7 @@ class Brazilian : public Protocol {
         Press press;
         const double radius = 0.5 * shape.diameter;
         Face face{Vec3::UnitX(), 1.0, 0.0, Face::boundless};
-        double area = 0.0;                   // flat platens and jaws touch along a line that grows: no area to share out
+        double area = 0.0; // flat platens and jaws touch along a line that grows: no area to share out
         double capping = flat_capping;
         if (platens_ == "jaws") {
             face.curvature = 1.0 / (jaw_radius_ * radius);
@@ -96,7 +98,8 @@ class Brazilian : public Protocol {
     }
 
     [[nodiscard]] std::vector<Stage> stages(const BenchView& bench, double pace) const override {
-        // The bonds at the centre are stretched by (1 + 3 nu) times the splitting stress, when the platens have closed by some four times it.
+        // The bonds at the centre are stretched by (1 + 3 nu) times the splitting stress, when the platens have closed by some four times
+        // it.
         const double first_damage = std::min(2.5 * lowest_tensile_strain(bench.model.bonds), 0.1 * stop_.axial_strain);
         return axial_stages(axial_, bench, {stop_.axial_strain, first_damage}, pace);
     }
@@ -115,7 +118,8 @@ class Brazilian : public Protocol {
             {"splitting_strength", "Splitting tensile strength", strength, "Pa",
              "2P/(pi D t) at the largest load, once the load has fallen 5 % below it (ASTM C496)"},
             {"peak_load", "Largest load", strength ? std::optional(*strength * m.press.area) : std::nullopt, "N", "mean of both platens"},
-            {"strain_at_peak", "Closing at peak over the diameter", strength ? std::optional(l.strain[peak]) : std::nullopt, "", "platen travel"},
+            {"strain_at_peak", "Closing at peak over the diameter", strength ? std::optional(l.strain[peak]) : std::nullopt, "",
+             "platen travel"},
             {"platen_imbalance", "Imbalance of the platens", imbalance(m, l, peak), "",
              "largest difference of the two forces over their mean, from 20 % of the peak to the peak"}};
         for (auto&& more : {elastic(m, l, peak), cracks(m, l, peak), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
@@ -137,8 +141,8 @@ class Brazilian : public Protocol {
     }
 
   private:
-    static constexpr double flat_capping = 0.05;  // of a radius: what turning and grinding leave along the two lines
-    static constexpr double strip_capping = 0.2;  // a strip lies on the surface all over its width
+    static constexpr double flat_capping = 0.05; // of a radius: what turning and grinding leave along the two lines
+    static constexpr double strip_capping = 0.2; // a strip lies on the surface all over its width
 
     static std::optional<double> imbalance(const Measured& m, const Loading& l, std::size_t peak) {
         const auto first = l.stress.empty() ? std::nullopt : first_reaching(l.stress, 0.2 * l.stress[peak], peak);
@@ -174,7 +178,8 @@ class Brazilian : public Protocol {
             across = y ? std::optional(-y->slope) : std::nullopt;
         }
         return {{"centre_tension", "Tension in the middle over 2P/(pi D t)", across, "",
-                 "slope of the averaged stress across the load, inner quarter of the diameter, 20 % to 50 % of the peak; Hertz's disc has 15/16 "
+                 "slope of the averaged stress across the load, inner quarter of the diameter, 20 % to 50 % of the peak; Hertz's disc has "
+                 "15/16 "
                  "there on average, 1 at its centre"},
                 {"centre_compression", "Compression in the middle over 2P/(pi D t)", along, "",
                  "the same along the load; Hertz's disc has 47/16 there on average, 3 at its centre"}};

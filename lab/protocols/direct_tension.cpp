@@ -24,7 +24,8 @@ class DirectTension : public Protocol {
                 "Direct tension",
                 "A cylinder or prism is pulled apart by platens glued to its ends until it has parted.",
                 {{"ASTM D2936", "core glued to two platens, strength from the largest load over the section",
-                  "no ball joints or chains: the platens stay parallel, so the specimen cannot turn as it tears; no specimen fails in the glue"}}};
+                  "no ball joints or chains: the platens stay parallel, so the specimen cannot turn as it tears; no specimen fails in the "
+                  "glue"}}};
     }
 
     void declare_loading(input::Visitor& v) override {
@@ -76,13 +77,15 @@ class DirectTension : public Protocol {
         std::vector<report::Scalar> out{
             {"tensile_strength", "Tensile strength", strength, "Pa",
              "largest mean platen stress, tension positive, once the stress has fallen 5 % below it (ASTM D2936)"},
-            {"strain_at_peak", "Strain at peak, platens", strength ? std::optional(l.strain[peak]) : std::nullopt, "", "platen travel over height"},
+            {"strain_at_peak", "Strain at peak, platens", strength ? std::optional(l.strain[peak]) : std::nullopt, "",
+             "platen travel over height"},
             {"young_modulus", "Young's modulus E in tension", line ? std::optional(line->slope) : std::nullopt, "Pa",
              "slope of stress over middle gauge strain, 10 % to 33 % of the strength"},
             {"poisson_ratio", "Poisson's ratio", line && lateral ? std::optional(-line->slope / *lateral) : std::nullopt, "",
              "minus circumferential over gauge axial strain, 10 % to 33 % of the strength"},
             {"fracture_energy", "Fracture energy", torn ? std::optional(area) : std::nullopt, "J/m2",
-             "area under stress over platen travel, once less than a fifth of the peak is left; the piece's elastic energy that a snap turns into "
+             "area under stress over platen travel, once less than a fifth of the peak is left; the piece's elastic energy that a snap "
+             "turns into "
              "motion is in it, so it is an upper bound"}};
         for (auto&& more : {softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
             out.insert(out.end(), more.begin(), more.end());

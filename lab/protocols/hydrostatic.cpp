@@ -22,16 +22,19 @@ class Hydrostatic : public Protocol {
     [[nodiscard]] ProtocolInfo about() const override {
         return {"hydrostatic",
                 "Hydrostatic compression",
-                "A cylinder or prism is brought under an equal pressure on its whole surface: on the side by forces on the surface spheres, on the "
+                "A cylinder or prism is brought under an equal pressure on its whole surface: on the side by forces on the surface "
+                "spheres, on the "
                 "ends by platens that a servo holds at the same stress.",
-                {{"no standard", "pressure against volumetric strain, as in the isotropic stage of a triaxial cell; bulk modulus, crush pressure",
+                {{"no standard",
+                  "pressure against volumetric strain, as in the isotropic stage of a triaxial cell; bulk modulus, crush pressure",
                   "the ends are pressed by smooth rigid platens, not by a fluid; no jacket"}}};
     }
 
     void declare_loading(input::Visitor& v) override {
         v.number("pressure", pressure_, input::Unit::pressure, {0.0, 1e10, true, false}, "to which the pressure is brought up");
         v.number_or_word("ramp", ramp_, {{"auto", "the time in which a wave crosses the specimen 150 times"}}, input::Unit::time,
-                         input::above(0), "time in which it is brought up, steadily after a smooth start; longer where the specimen yields");
+                         input::above(0),
+                         "time in which it is brought up, steadily after a smooth start; longer where the specimen yields");
         v.number("servo_speed_limit", speed_limit_, input::Unit::velocity, {0.0, 100.0, true, false},
                  "largest closing speed of the platens while they follow the pressure");
         declare_friction(v, friction_);
@@ -109,8 +112,8 @@ class Hydrostatic : public Protocol {
              "circumferential over middle gauge strain there; isotropic: 1"},
             {"crush_pressure", "Crush pressure", crush, "Pa",
              "where the curve leaves the elastic line, shifted by 0.02 % of volumetric strain (offset yield)"},
-            {"volumetric_strain_at_end", "Volumetric strain at the end", l.volume.empty() ? std::nullopt : std::optional(l.volume.back()), "",
-             "middle gauge and girth"},
+            {"volumetric_strain_at_end", "Volumetric strain at the end", l.volume.empty() ? std::nullopt : std::optional(l.volume.back()),
+             "", "middle gauge and girth"},
             {"servo_error", "Servo, largest error", worst, "", "axial over lateral stress less 1, from a tenth of the pressure on"}};
         for (auto&& more : {energy_results(m.energy)}) {
             out.insert(out.end(), more.begin(), more.end());

@@ -38,7 +38,8 @@ class Oedometric : public Protocol {
         declare_axial(v, axial_, false);
         v.number_or_word("ring_diameter", ring_, {{"auto", "that of the specimen"}}, input::Unit::length, input::above(0),
                          "inner diameter of the ring around a round specimen");
-        v.number("ring_friction", ring_friction_, input::Unit::none, {0.0, 10.0, false, false}, "Coulomb friction between specimen and ring");
+        v.number("ring_friction", ring_friction_, input::Unit::none, {0.0, 10.0, false, false},
+                 "Coulomb friction between specimen and ring");
         declare_friction(v, friction_);
         v.section("stop", stop_, "what ends the test");
         v.refused("confining_pressure", "the ring holds the side; a pressure there belongs to a triaxial test");
@@ -49,10 +50,12 @@ class Oedometric : public Protocol {
         check_sides(deck, problems);
         if (ring_.word.empty() && deck.specimen.file.empty()) {
             if (deck.specimen.shape == "prism") {
-                problems.push_back({deck.source, "/loading/ring_diameter", fmt_length(ring_.number), "no ring: a prism stands between four walls", ""});
+                problems.push_back(
+                    {deck.source, "/loading/ring_diameter", fmt_length(ring_.number), "no ring: a prism stands between four walls", ""});
             } else if (ring_.number < deck.specimen.diameter) {
                 problems.push_back({deck.source, "/loading/ring_diameter", fmt_length(ring_.number),
-                                    "at least the specimen's diameter of " + fmt_length(deck.specimen.diameter), "\"auto\" fits the specimen"});
+                                    "at least the specimen's diameter of " + fmt_length(deck.specimen.diameter),
+                                    "\"auto\" fits the specimen"});
             }
         }
         check_axial(axial_, stop_.axial_strain, deck.source, problems);
@@ -121,7 +124,8 @@ class Oedometric : public Protocol {
         std::vector<report::Scalar> out{
             {"constrained_modulus", "Constrained modulus", line ? std::optional(line->slope) : std::nullopt, "Pa",
              "slope of axial stress over middle gauge strain before the first bond fails"},
-            {"k0", "K0", k0 ? std::optional(1.0 / *k0) : std::nullopt, "", "slope of lateral over axial stress there; elastic: nu/(1 - nu)"},
+            {"k0", "K0", k0 ? std::optional(1.0 / *k0) : std::nullopt, "",
+             "slope of lateral over axial stress there; elastic: nu/(1 - nu)"},
             {"lateral_give", "Lateral over axial strain", line && give ? std::optional(line->slope / *give) : std::nullopt, "",
              "circumferential over middle gauge strain there: what the ring's contacts give way by; 0 is rigid"},
             {"yield_stress", "Yield, axial stress", yield, "Pa",
@@ -129,7 +133,8 @@ class Oedometric : public Protocol {
             {"axial_stress_at_end", "Axial stress at the end", last(l.stress), "Pa", "mean of both platens"},
             {"strain_at_end", "Axial strain at the end", last(l.strain), "", "platen travel over height"},
             {"lateral_stress_at_end", "Lateral stress at the end",
-             l.stress.empty() ? std::nullopt : std::optional(l.stress.back() - l.deviator.back()), "Pa", "pressure of the specimen on the ring"}};
+             l.stress.empty() ? std::nullopt : std::optional(l.stress.back() - l.deviator.back()), "Pa",
+             "pressure of the specimen on the ring"}};
         for (auto&& more : {cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
             out.insert(out.end(), more.begin(), more.end());
         }

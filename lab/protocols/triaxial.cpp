@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "lab/axial_results.hpp"
-#include "lab/deck.hpp"
 #include "lab/confinement.hpp"
+#include "lab/deck.hpp"
 #include "lab/stages.hpp"
 #include "lab/surface_pressure.hpp"
 
@@ -14,20 +14,19 @@ namespace {
 
 class Triaxial : public Protocol {
   public:
-    Triaxial() {
-        stop_.axial_strain = 0.02;
-    }
+    Triaxial() { stop_.axial_strain = 0.02; }
 
     // 1. The standard: what it mimics and where it cannot.
     [[nodiscard]] ProtocolInfo about() const override {
-        return {"triaxial",
-                "Triaxial compression",
-                "A cylinder or prism is brought under an equal pressure on all sides, which is held, and then pressed along its axis at that "
-                "pressure on its side until its stress has fallen well past the peak, or until an axial strain.",
-                {{"ASTM D7012 method A and B", "isotropic stage, axial loading at constant confining pressure; peak, E and nu from gauges",
-                  "no membrane, so none to correct for: the pressure acts on the surface spheres; dry, no pore pressure"},
-                 {"Sfer et al. 2002", "150 x 300 mm cylinder, the same series of pressures, axial control to past the peak",
-                  "their 0.0006 mm/s; control by the girth at low pressure is an option, not the default"}}};
+        return {
+            "triaxial",
+            "Triaxial compression",
+            "A cylinder or prism is brought under an equal pressure on all sides, which is held, and then pressed along its axis at that "
+            "pressure on its side until its stress has fallen well past the peak, or until an axial strain.",
+            {{"ASTM D7012 method A and B", "isotropic stage, axial loading at constant confining pressure; peak, E and nu from gauges",
+              "no membrane, so none to correct for: the pressure acts on the surface spheres; dry, no pore pressure"},
+             {"Sfer et al. 2002", "150 x 300 mm cylinder, the same series of pressures, axial control to past the peak",
+              "their 0.0006 mm/s; control by the girth at low pressure is an option, not the default"}}};
     }
 
     void declare_loading(input::Visitor& v) override {
@@ -86,7 +85,8 @@ class Triaxial : public Protocol {
             {"residual_stress", "Residual deviatoric stress", residual(l), "Pa",
              "mean over the last tenth of the strain, once the deviator has fallen by 5 %"},
             {"dilatancy", "Dilatancy", dilatancy(l), "",
-             "minus volumetric over axial strain increment by the middle gauges, from 90 % to 100 % of the largest deviator: positive when the "
+             "minus volumetric over axial strain increment by the middle gauges, from 90 % to 100 % of the largest deviator: positive when "
+             "the "
              "specimen grows"}};
         for (auto&& more : {elastic_results(l), softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
             out.insert(out.end(), more.begin(), more.end());

@@ -21,10 +21,12 @@ class Ucs : public Protocol {
             "its stress has fallen well past the peak, or until an axial strain.",
             {{"ASTM C39, EN 12390-3", "150 x 300 mm cylinder, compressive strength from peak load over nominal area",
               "loading rate: milliseconds instead of minutes, so the verdict on quasi-static loading must hold; no creep, no moisture"},
-             {"ASTM D7012 method C and D", "modulus and Poisson's ratio from gauges at mid-height (tangent, secant and average); control by "
-                                           "the girth past the peak",
+             {"ASTM D7012 method C and D",
+              "modulus and Poisson's ratio from gauges at mid-height (tangent, secant and average); control by "
+              "the girth past the peak",
               "spherical seat: the platens stay parallel"},
-             {"EN 12390-13", "secant modulus between a tenth and a third of the strength; cycles on request", "no preloading cycles by itself"}}};
+             {"EN 12390-13", "secant modulus between a tenth and a third of the strength; cycles on request",
+              "no preloading cycles by itself"}}};
     }
 
     void declare_loading(input::Visitor& v) override {
@@ -40,7 +42,8 @@ class Ucs : public Protocol {
     void check(const Deck& deck, input::Problems& problems) const override {
         if (deck.specimen.file.empty() && deck.specimen.spheres < 20) {
             problems.push_back({deck.source, "/specimen/spheres", std::to_string(deck.specimen.spheres),
-                                "at least 20 spheres for a compression test", "1,000 spheres give a first impression, 13,500 a good curve"});
+                                "at least 20 spheres for a compression test",
+                                "1,000 spheres give a first impression, 13,500 a good curve"});
         }
         check_axial(axial_, stop_.axial_strain, deck.source, problems);
     }
@@ -66,13 +69,12 @@ class Ucs : public Protocol {
         const Loading l = loading_of(m.curve, m.press.sense);
         const std::size_t peak = peak_index(l.stress);
         const auto strength = peak_if_passed(l.stress);
-        std::vector<report::Scalar> out{
-            {"strength", "Compressive strength", strength, "Pa",
-             "largest mean platen stress, once the stress has fallen 5 % below it (ASTM C39)"},
-            {"strain_at_peak", "Strain at peak, platens", strength ? std::optional(l.strain[peak]) : std::nullopt, "",
-             "platen travel over height"},
-            {"gauge_strain_at_peak", "Strain at peak, middle gauge", strength ? std::optional(l.gauge[peak]) : std::nullopt, "",
-             "middle gauge length"}};
+        std::vector<report::Scalar> out{{"strength", "Compressive strength", strength, "Pa",
+                                         "largest mean platen stress, once the stress has fallen 5 % below it (ASTM C39)"},
+                                        {"strain_at_peak", "Strain at peak, platens",
+                                         strength ? std::optional(l.strain[peak]) : std::nullopt, "", "platen travel over height"},
+                                        {"gauge_strain_at_peak", "Strain at peak, middle gauge",
+                                         strength ? std::optional(l.gauge[peak]) : std::nullopt, "", "middle gauge length"}};
         for (auto&& more : {elastic_results(l), softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
             out.insert(out.end(), more.begin(), more.end());
         }

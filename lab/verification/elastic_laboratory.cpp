@@ -62,71 +62,83 @@ Elasticity measured(const ElasticTest& t) {
 } // namespace
 
 Case elastic_laboratory() {
-    return {"elastic-laboratory", "5.5",
-            "Every test on unbreakable specimens of full size: moduli and stresses by the inner gauges against elasticity with the specimen's own E and nu.",
-            false, [] {
-                const input::Json cylinder = {{"spheres", 13500}};
-                const input::Json disc = {{"shape", "disc"}, {"diameter", "150 mm"}, {"height", "90 mm"}, {"spheres", 16000}};
-                const input::Json free = {{"platen_friction", "lubricated"}, {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}};
-                Outcome out;
-                const auto check = [&](const std::string& what, double expected, double found, double tolerance = 0.05, const char* unit = "") {
-                    out.checks.push_back({what, expected, found, tolerance, Compare::relative, unit});
-                };
-                const auto report = [&](const std::string& what, double found, const char* unit = "") {
-                    out.checks.push_back({what, 0.0, found, 0.0, Compare::reported, unit});
-                };
+    return {
+        "elastic-laboratory", "5.5",
+        "Every test on unbreakable specimens of full size: moduli and stresses by the inner gauges against elasticity with the specimen's "
+        "own E and nu.",
+        false, [] {
+            const input::Json cylinder = {{"spheres", 13500}};
+            const input::Json disc = {{"shape", "disc"}, {"diameter", "150 mm"}, {"height", "90 mm"}, {"spheres", 16000}};
+            const input::Json free = {{"platen_friction", "lubricated"}, {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}};
+            Outcome out;
+            const auto check = [&](const std::string& what, double expected, double found, double tolerance = 0.05, const char* unit = "") {
+                out.checks.push_back({what, expected, found, tolerance, Compare::relative, unit});
+            };
+            const auto report = [&](const std::string& what, double found, const char* unit = "") {
+                out.checks.push_back({what, 0.0, found, 0.0, Compare::reported, unit});
+            };
 
-                const ElasticTest ucs("ucs", cylinder, free);
-                const auto [young, poisson] = measured(ucs);
-                report("cylinder: E, inner gauges", young, "Pa");
-                report("cylinder: nu, inner gauges", poisson);
-                check("ucs: stress in the middle, whole section, over the platens'", 1.0, ucs.of("middle_stress"), 0.02);
-                report("ucs: stress in the inner region over the platens'", ucs.of("inner_stress_zz"));
-                report("ucs: modulus by platen travel over E", 1.0 / ucs.of("axial_strain") / young);
+            const ElasticTest ucs("ucs", cylinder, free);
+            const auto [young, poisson] = measured(ucs);
+            report("cylinder: E, inner gauges", young, "Pa");
+            report("cylinder: nu, inner gauges", poisson);
+            check("ucs: stress in the middle, whole section, over the platens'", 1.0, ucs.of("middle_stress"), 0.02);
+            report("ucs: stress in the inner region over the platens'", ucs.of("inner_stress_zz"));
+            report("ucs: modulus by platen travel over E", 1.0 / ucs.of("axial_strain") / young);
 
-                const ElasticTest oedometer("oedometric", cylinder, {{"stop", {{"axial_strain", 0.0004}}}});
-                const double constrained = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
-                check("oedometric: constrained modulus", constrained, oedometer.of("inner_stress_zz") / oedometer.of("inner_strain_zz"), 0.05, "Pa");
-                report("oedometric: K0, inner stress", oedometer.lateral_stress() / oedometer.of("inner_stress_zz"));
-                report("oedometric: K0 of a rigid ring, nu/(1 - nu)", poisson / (1.0 - poisson));
-                report("oedometric: lateral over axial strain inside", oedometer.lateral_strain() / oedometer.of("inner_strain_zz"));
-                report("oedometric: ring's pressure over the lateral stress inside", oedometer.of("lateral_stress") / oedometer.lateral_stress());
-                report("oedometric: modulus by platen travel over E(1 - nu)/((1 + nu)(1 - 2 nu))", 1.0 / oedometer.of("axial_strain") / constrained);
+            const ElasticTest oedometer("oedometric", cylinder, {{"stop", {{"axial_strain", 0.0004}}}});
+            const double constrained = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+            check("oedometric: constrained modulus", constrained, oedometer.of("inner_stress_zz") / oedometer.of("inner_strain_zz"), 0.05,
+                  "Pa");
+            report("oedometric: K0, inner stress", oedometer.lateral_stress() / oedometer.of("inner_stress_zz"));
+            report("oedometric: K0 of a rigid ring, nu/(1 - nu)", poisson / (1.0 - poisson));
+            report("oedometric: lateral over axial strain inside", oedometer.lateral_strain() / oedometer.of("inner_strain_zz"));
+            report("oedometric: ring's pressure over the lateral stress inside",
+                   oedometer.of("lateral_stress") / oedometer.lateral_stress());
+            report("oedometric: modulus by platen travel over E(1 - nu)/((1 + nu)(1 - 2 nu))",
+                   1.0 / oedometer.of("axial_strain") / constrained);
 
-                const ElasticTest hydrostatic("hydrostatic", cylinder, {{"pressure", "10 MPa"}, {"ramp", "8 ms"}});
-                const double trace = hydrostatic.of("inner_strain_zz") + 2.0 * hydrostatic.lateral_strain();
-                const double mean = (hydrostatic.of("inner_stress_zz") + 2.0 * hydrostatic.lateral_stress()) / 3.0;
-                check("hydrostatic: bulk modulus", young / (3.0 * (1.0 - 2.0 * poisson)), mean / trace, 0.05, "Pa");
-                check("hydrostatic: lateral over axial strain", 1.0, hydrostatic.lateral_strain() / hydrostatic.of("inner_strain_zz"));
-                check("hydrostatic: axial stress in the middle, whole section, over the pressure", 1.0, hydrostatic.of("middle_stress"), 0.02);
-                report("hydrostatic: mean stress in the inner region over the pressure", mean);
-                out.checks.push_back({"hydrostatic: servo, largest error", 0.01, hydrostatic.worst_ratio("axial_stress", "lateral_stress"), 0.0,
-                                      Compare::at_most, ""});
+            const ElasticTest hydrostatic("hydrostatic", cylinder, {{"pressure", "10 MPa"}, {"ramp", "8 ms"}});
+            const double trace = hydrostatic.of("inner_strain_zz") + 2.0 * hydrostatic.lateral_strain();
+            const double mean = (hydrostatic.of("inner_stress_zz") + 2.0 * hydrostatic.lateral_stress()) / 3.0;
+            check("hydrostatic: bulk modulus", young / (3.0 * (1.0 - 2.0 * poisson)), mean / trace, 0.05, "Pa");
+            check("hydrostatic: lateral over axial strain", 1.0, hydrostatic.lateral_strain() / hydrostatic.of("inner_strain_zz"));
+            check("hydrostatic: axial stress in the middle, whole section, over the pressure", 1.0, hydrostatic.of("middle_stress"), 0.02);
+            report("hydrostatic: mean stress in the inner region over the pressure", mean);
+            out.checks.push_back({"hydrostatic: servo, largest error", 0.01, hydrostatic.worst_ratio("axial_stress", "lateral_stress"), 0.0,
+                                  Compare::at_most, ""});
 
-                const ElasticTest triaxial("triaxial", cylinder,
-                                           {{"confining_pressure", "4.5 MPa"}, {"platen_friction", "lubricated"}, {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
-                check("triaxial: E, inner gauges", young, triaxial.of("inner_stress_zz") / triaxial.of("inner_strain_zz"), 0.02, "Pa");
-                check("triaxial: stress in the middle, whole section, over the platens'", 1.0, triaxial.of("middle_stress"), 0.02);
+            const ElasticTest triaxial("triaxial", cylinder,
+                                       {{"confining_pressure", "4.5 MPa"},
+                                        {"platen_friction", "lubricated"},
+                                        {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
+            check("triaxial: E, inner gauges", young, triaxial.of("inner_stress_zz") / triaxial.of("inner_strain_zz"), 0.02, "Pa");
+            check("triaxial: stress in the middle, whole section, over the platens'", 1.0, triaxial.of("middle_stress"), 0.02);
 
-                const ElasticTest pressed("ucs", disc, free);
-                const Elasticity own = measured(pressed);
-                const ElasticTest brazilian("brazilian", disc, {{"stop", {{"axial_strain", 0.0003}, {"post_peak_drop", 1}}}});
-                // Means over the circle of a quarter of the diameter: 1 - (a/R)^2 and 3 - (a/R)^2 times 2P/(pi D t), Hertz's disc being harmonic.
-                const double tension = 15.0 / 16.0;
-                const double compression = 47.0 / 16.0;
-                check("brazilian: tension in the middle over 2P/(pi D t)", tension, -brazilian.of("inner_stress_yy"));
-                check("brazilian: compression in the middle over 2P/(pi D t)", compression, brazilian.of("inner_stress_xx"));
-                check("brazilian: strain across the load, times E", tension + own.poisson * compression, -own.young * brazilian.of("inner_strain_yy"));
-                check("brazilian: strain along the load, times E", compression + own.poisson * tension, own.young * brazilian.of("inner_strain_xx"));
-                report("disc: E, inner gauges", own.young, "Pa");
-                report("disc: nu, inner gauges", own.poisson);
+            const ElasticTest pressed("ucs", disc, free);
+            const Elasticity own = measured(pressed);
+            const ElasticTest brazilian("brazilian", disc, {{"stop", {{"axial_strain", 0.0003}, {"post_peak_drop", 1}}}});
+            // Means over the circle of a quarter of the diameter: 1 - (a/R)^2 and 3 - (a/R)^2 times 2P/(pi D t), Hertz's disc being
+            // harmonic.
+            const double tension = 15.0 / 16.0;
+            const double compression = 47.0 / 16.0;
+            check("brazilian: tension in the middle over 2P/(pi D t)", tension, -brazilian.of("inner_stress_yy"));
+            check("brazilian: compression in the middle over 2P/(pi D t)", compression, brazilian.of("inner_stress_xx"));
+            check("brazilian: strain across the load, times E", tension + own.poisson * compression,
+                  -own.young * brazilian.of("inner_strain_yy"));
+            check("brazilian: strain along the load, times E", compression + own.poisson * tension,
+                  own.young * brazilian.of("inner_strain_xx"));
+            report("disc: E, inner gauges", own.young, "Pa");
+            report("disc: nu, inner gauges", own.poisson);
 
-                const ElasticTest tension_test("direct-tension", cylinder, {{"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
-                check("direct tension: E, inner gauges", young, tension_test.of("inner_stress_zz") / tension_test.of("inner_strain_zz"), 0.02, "Pa");
-                out.notes.emplace_back("The inner region carries some 3 % more than the mean of the section: bond areas inside make up 1.03 of it, those of the "
-                                       "skin less (area-partition). Modulus and ratio are of readings inside, so it drops out of them.");
-                return out;
-            }};
+            const ElasticTest tension_test("direct-tension", cylinder, {{"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
+            check("direct tension: E, inner gauges", young, tension_test.of("inner_stress_zz") / tension_test.of("inner_strain_zz"), 0.02,
+                  "Pa");
+            out.notes.emplace_back(
+                "The inner region carries some 3 % more than the mean of the section: bond areas inside make up 1.03 of it, those of the "
+                "skin less (area-partition). Modulus and ratio are of readings inside, so it drops out of them.");
+            return out;
+        }};
 }
 
 } // namespace proveta::verification

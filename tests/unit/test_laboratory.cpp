@@ -58,8 +58,8 @@ TEST_CASE("tests refuse what does not belong to them, with the reason") {
     CHECK(refuses(R"({"test": "hydrostatic", "loading": {"rate": 0.1}})", "/loading/rate", "ramp"));
     CHECK(refuses(R"({"test": "oedometric", "loading": {"ring_diameter": "140 mm"}})", "/loading/ring_diameter", "diameter of 0.15 m"));
     CHECK(refuses(R"({"test": "oedometric", "loading": {"confining_pressure": 1e6}})", "/loading/confining_pressure", "ring"));
-    CHECK(refuses(R"({"test": "triaxial", "loading": {"confining_pressure": "60 MPa", "pressure_ramp": "10 us"}})", "/loading/pressure_ramp",
-                  "beyond the limit"));
+    CHECK(refuses(R"({"test": "triaxial", "loading": {"confining_pressure": "60 MPa", "pressure_ramp": "10 us"}})",
+                  "/loading/pressure_ramp", "beyond the limit"));
     CHECK(refuses(R"({"test": "hydrostatic", "loading": {"pressure": "60 MPa", "ramp": "10 us"}})", "/loading/ramp", "beyond the limit"));
     CHECK(refuses(R"({"test": "triaxial", "specimen": {"shape": "plate", "spheres": 500}})", "/specimen/shape", "plate"));
     CHECK(refuses(R"({"test": "brazilian", "specimen": {"shape": "prism"}})", "/specimen/shape", "round"));

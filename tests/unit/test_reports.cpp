@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "lab/quasi_static.hpp"
 #include "lab/controls/closing.hpp"
 #include "lab/derived.hpp"
+#include "lab/quasi_static.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
 #include "reports/svg.hpp"

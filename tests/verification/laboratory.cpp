@@ -32,7 +32,8 @@ struct Ran {
 };
 
 Ran run(const std::string& test, const std::string& more) {
-    input::Json json = {{"test", test}, {"specimen", {{"diameter", "50 mm"}, {"height", "100 mm"}, {"spheres", 1500}}}, {"output", {{"fields", 0}}}};
+    input::Json json = {
+        {"test", test}, {"specimen", {{"diameter", "50 mm"}, {"height", "100 mm"}, {"spheres", 1500}}}, {"output", {{"fields", 0}}}};
     json.merge_patch(input::Json::parse(more));
     Deck deck = read_deck(json, "test.json");
     Bench bench = set_up(deck, make_specimen(deck.specimen));
@@ -40,7 +41,8 @@ Ran run(const std::string& test, const std::string& more) {
     return {std::move(deck), std::move(bench), std::move(data)};
 }
 
-const std::string unbreakable_bonds = R"("material": {"sigma_f": "1000 GPa", "tau_f": "1000 GPa", "lcs": ["1000 GPa", "2000 GPa", "3000 GPa"]})";
+const std::string unbreakable_bonds =
+    R"("material": {"sigma_f": "1000 GPa", "tau_f": "1000 GPa", "lcs": ["1000 GPa", "2000 GPa", "3000 GPa"]})";
 
 Vec3 pushed(const Spheres& s, Pressure& p) {
     Loads loads(s.size());
@@ -59,7 +61,8 @@ Vec3 pushed(const Spheres& s, Pressure& p) {
 
 TEST_CASE("surface net: goes around once, shows the true surface along its normals, and pushes the specimen nowhere, whatever its form") {
     for (const char* shape : {"cylinder", "prism"}) {
-        const Deck deck = small_deck(2000, std::string(R"({"specimen": {"shape": ")") + shape + R"(", "width": "40 mm", "depth": "60 mm"}})");
+        const Deck deck =
+            small_deck(2000, std::string(R"({"specimen": {"shape": ")") + shape + R"(", "width": "40 mm", "depth": "60 mm"}})");
         const Specimen specimen = make_specimen(deck.specimen);
         std::vector<Material> materials;
         Spheres s = make_spheres(specimen, deck, materials);
@@ -99,7 +102,8 @@ TEST_CASE("surface net: goes around once, shows the true surface along its norma
 
 TEST_CASE("direct tension: glued platens pull, the modulus is that of compression, the specimen parts") {
     const Ran pull = run("direct-tension", "{" + unbreakable_bonds + R"(, "loading": {"stop": {"axial_strain": 0.0003}}})");
-    const Ran push = run("ucs", "{" + unbreakable_bonds + R"(, "loading": {"platen_friction": "glued", "stop": {"axial_strain": 0.0003}}})");
+    const Ran push =
+        run("ucs", "{" + unbreakable_bonds + R"(, "loading": {"platen_friction": "glued", "stop": {"axial_strain": 0.0003}}})");
     CHECK(pull.result("young_modulus").value() == Approx(push.result("young_modulus").value()).epsilon(0.01));
     CHECK(pull.data.curve.values("axial_stress").back() < -1e6);
 
@@ -113,7 +117,8 @@ TEST_CASE("direct tension: glued platens pull, the modulus is that of compressio
 }
 
 TEST_CASE("triaxial: the servo keeps the platens within 1 % of the pressure on its way up and does not overshoot") {
-    const Ran t = run("triaxial", R"({"loading": {"confining_pressure": "9 MPa", "stop": {"axial_strain": 0.0005}}, "output": {"samples": 1000}})");
+    const Ran t =
+        run("triaxial", R"({"loading": {"confining_pressure": "9 MPa", "stop": {"axial_strain": 0.0005}}, "output": {"samples": 1000}})");
     const auto phase = t.data.curve.values("phase");
     const auto axial = t.data.curve.values("axial_stress");
     const auto lateral = t.data.curve.values("lateral_stress");
