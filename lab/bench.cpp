@@ -156,7 +156,7 @@ Bench set_up(const Deck& deck, Specimen specimen) {
     bench.wave_speed = std::sqrt(materials.front().normal_factor * materials.front().young_modulus / materials.front().density);
 
     try {
-        bench.press = deck.protocol->press(spheres, bench.specimen.shape);
+        bench.press = deck.protocol->press(spheres, bonds, bench.specimen.shape);
     } catch (const std::invalid_argument& e) {
         fail("/specimen", e.what(), "a specimen that fits this test's machine", "ask for more spheres");
     }

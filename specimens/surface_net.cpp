@@ -55,6 +55,8 @@ std::vector<Facet> triangulate(const std::vector<Flat>& points) {
     return facets;
 }
 
+bool held(const Bonds& bonds, std::size_t sphere) { return bonds.incidence.offset[sphere + 1] - bonds.incidence.offset[sphere] >= 4; }
+
 double girth(const Shape& shape) {
     return shape.kind == ShapeKind::cylinder ? std::numbers::pi * shape.diameter : 2.0 * (shape.width + shape.depth);
 }
@@ -83,13 +85,13 @@ Vec3 side_normal(const Shape& shape, const Vec3& p) {
 
 } // namespace
 
-SurfaceNet side_net(const Shape& shape, const Spheres& s) {
+SurfaceNet side_net(const Shape& shape, const Spheres& s, const Bonds& bonds) {
     SurfaceNet net;
     net.surface = girth(shape) * shape.height;
     std::vector<Flat> points;
     for (std::size_t k = 0; k < s.size(); ++k) {
         const Vec3 at = s.position.at(k);
-        if (shape.depth_below_side(at) >= reach * s.radius[k]) {
+        if (shape.depth_below_side(at) >= reach * s.radius[k] || !held(bonds, k)) {
             continue;
         }
         const bool upper = shape.height - at.z() < reach * s.radius[k];
@@ -120,14 +122,14 @@ SurfaceNet side_net(const Shape& shape, const Spheres& s) {
     return net;
 }
 
-SurfaceNet end_net(const Shape& shape, const Spheres& s, double outward) {
+SurfaceNet end_net(const Shape& shape, const Spheres& s, const Bonds& bonds, double outward) {
     SurfaceNet net;
     net.surface = shape.section();
     const double level = outward > 0.0 ? shape.height : 0.0;
     std::vector<Flat> points;
     for (std::size_t k = 0; k < s.size(); ++k) {
         const Vec3 at = s.position.at(k);
-        if (std::fabs(level - at.z()) < reach * s.radius[k]) {
+        if (std::fabs(level - at.z()) < reach * s.radius[k] && held(bonds, k)) {
             net.sphere.push_back(static_cast<std::int32_t>(k));
             net.raise.push_back(level - at.z());
             net.normal.push_back(outward * Vec3::UnitZ());

@@ -69,7 +69,7 @@ class Brazilian : public Protocol {
     }
 
     // 2. Stages and 3. controls: platens at the two ends of a diameter, closing at the rate, both at half of it.
-    [[nodiscard]] Press press(const Spheres& spheres, const Shape& shape) const override {
+    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& /*bonds*/, const Shape& shape) const override {
         if (shape.kind != ShapeKind::cylinder) {
             throw std::invalid_argument("a specimen that is not round");
         }

@@ -62,7 +62,7 @@ class Oedometric : public Protocol {
     }
 
     // 2. Stages and 3. controls: platens closing; ring or walls at rest.
-    [[nodiscard]] Press press(const Spheres& spheres, const Shape& shape) const override {
+    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& /*bonds*/, const Shape& shape) const override {
         Press press = axial_press(spheres, shape, friction_value(friction_), 1.0);
         if (shape.kind == ShapeKind::cylinder) {
             const double radius = 0.5 * (ring_.word.empty() ? ring_.number : shape.diameter);

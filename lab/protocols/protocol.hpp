@@ -106,8 +106,8 @@ class Protocol {
     /// What the deck's parts contradict.
     virtual void check(const Deck& deck, input::Problems& problems) const = 0;
 
-    /// The machine around the specimen.
-    [[nodiscard]] virtual Press press(const Spheres& spheres, const Shape& shape) const = 0;
+    /// The machine around the specimen. Throws std::invalid_argument, saying what, for a specimen that does not fit into it.
+    [[nodiscard]] virtual Press press(const Spheres& spheres, const Bonds& bonds, const Shape& shape) const = 0;
     /// Parts 2 and 3. pace: factor on all speeds, for a check that they do not matter.
     [[nodiscard]] virtual std::vector<Stage> stages(const BenchView& bench, double pace) const = 0;
     /// True when the test is to be run again at half the rate.

@@ -44,9 +44,9 @@ class Triaxial : public Protocol {
     }
 
     // 2. Stages and 3. controls: all sides to the pressure, the platens on a servo; a pause; axial loading.
-    [[nodiscard]] Press press(const Spheres& spheres, const Shape& shape) const override {
+    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& bonds, const Shape& shape) const override {
         Press press = axial_press(spheres, shape, friction_value(friction_), 1.0);
-        press.pressures = {lateral_pressure(shape, spheres)};
+        press.pressures = {lateral_pressure(shape, spheres, bonds)};
         return press;
     }
 

@@ -29,8 +29,8 @@ Confined confine(const std::string& criterion, double pressure) {
     Numerics numerics;
     Model model(bench.model->spheres, bench.model->materials, bench.model->bonds, std::vector<double>(bench.model->spheres.size(), 1.0), {},
                 numerics);
-    model.pressures = {lateral_pressure(shape, model.spheres), end_pressure(shape, model.spheres, 1.0),
-                       end_pressure(shape, model.spheres, -1.0)};
+    model.pressures = {lateral_pressure(shape, model.spheres, model.bonds), end_pressure(shape, model.spheres, model.bonds, 1.0),
+                       end_pressure(shape, model.spheres, model.bonds, -1.0)};
     const double ramp = 15.0 * shape.height / bench.wave_speed;
     while (model.time() < 1.4 * ramp) {
         for (auto& p : model.pressures) {

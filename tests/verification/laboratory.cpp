@@ -63,10 +63,10 @@ TEST_CASE("surface net: goes around once, shows the true surface along its norma
     for (const char* shape : {"cylinder", "prism"}) {
         const Deck deck =
             small_deck(2000, std::string(R"({"specimen": {"shape": ")") + shape + R"(", "width": "40 mm", "depth": "60 mm"}})");
-        const Specimen specimen = make_specimen(deck.specimen);
-        std::vector<Material> materials;
-        Spheres s = make_spheres(specimen, deck, materials);
-        const SurfaceNet net = side_net(specimen.shape, s);
+        Bench bench = set_up(deck, make_specimen(deck.specimen));
+        const Shape& shape_of_it = bench.specimen.shape;
+        Spheres& s = bench.model->spheres;
+        const SurfaceNet net = side_net(shape_of_it, s, bench.model->bonds);
         // A closed band: every edge in two facets, but for those of the two rims; V - E + F = 0.
         std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
         std::size_t doubled = 0;
@@ -79,7 +79,7 @@ TEST_CASE("surface net: goes around once, shows the true surface along its norma
         const std::size_t rim = edges.size() - doubled;
         CHECK(rim == 3 * net.facets.size() - 2 * doubled);
 
-        Pressure p = lateral_pressure(specimen.shape, s);
+        Pressure p = lateral_pressure(shape_of_it, s, bench.model->bonds);
         p.value = 1e6;
         double shown = 0.0;
         const Vec3 rest = pushed(s, p);
