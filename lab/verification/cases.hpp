@@ -32,5 +32,6 @@ Case area_models();
 Case area_partition();
 Case elastic_study();
 Case elastic_laboratory();
+Case elastic_laboratory_small();
 
 } // namespace proveta::verification

@@ -59,19 +59,16 @@ Elasticity measured(const ElasticTest& t) {
     return {t.of("inner_stress_zz") / t.of("inner_strain_zz"), -t.lateral_strain() / t.of("inner_strain_zz")};
 }
 
-} // namespace
-
-Case elastic_laboratory() {
+Case laboratory(const char* name, const char* about, bool full) {
     return {
-        "elastic-laboratory", "5.5",
-        "Every test on unbreakable specimens of full size: moduli and stresses by the inner gauges against elasticity with the specimen's "
-        "own E and nu.",
-        false, [] {
-            const input::Json cylinder = {{"spheres", 13500}};
-            const input::Json disc = {{"shape", "disc"}, {"diameter", "150 mm"}, {"height", "90 mm"}, {"spheres", 16000}};
+        name, "5.5", about, full, [full] {
+            // Small specimens have more skin: the stress in the middle of a disc is 4 % higher than with 16,000 spheres.
+            const double allowed = full ? 0.05 : 0.08;
+            const input::Json cylinder = {{"spheres", full ? 13500 : 3000}};
+            const input::Json disc = {{"shape", "disc"}, {"diameter", "150 mm"}, {"height", "90 mm"}, {"spheres", full ? 16000 : 3500}};
             const input::Json free = {{"platen_friction", "lubricated"}, {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}};
             Outcome out;
-            const auto check = [&](const std::string& what, double expected, double found, double tolerance = 0.05, const char* unit = "") {
+            const auto check = [&](const std::string& what, double expected, double found, double tolerance, const char* unit = "") {
                 out.checks.push_back({what, expected, found, tolerance, Compare::relative, unit});
             };
             const auto report = [&](const std::string& what, double found, const char* unit = "") {
@@ -88,8 +85,8 @@ Case elastic_laboratory() {
 
             const ElasticTest oedometer("oedometric", cylinder, {{"stop", {{"axial_strain", 0.0004}}}});
             const double constrained = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
-            check("oedometric: constrained modulus", constrained, oedometer.of("inner_stress_zz") / oedometer.of("inner_strain_zz"), 0.05,
-                  "Pa");
+            check("oedometric: constrained modulus", constrained, oedometer.of("inner_stress_zz") / oedometer.of("inner_strain_zz"),
+                  allowed, "Pa");
             report("oedometric: K0, inner stress", oedometer.lateral_stress() / oedometer.of("inner_stress_zz"));
             report("oedometric: K0 of a rigid ring, nu/(1 - nu)", poisson / (1.0 - poisson));
             report("oedometric: lateral over axial strain inside", oedometer.lateral_strain() / oedometer.of("inner_strain_zz"));
@@ -101,8 +98,8 @@ Case elastic_laboratory() {
             const ElasticTest hydrostatic("hydrostatic", cylinder, {{"pressure", "10 MPa"}, {"ramp", "8 ms"}});
             const double trace = hydrostatic.of("inner_strain_zz") + 2.0 * hydrostatic.lateral_strain();
             const double mean = (hydrostatic.of("inner_stress_zz") + 2.0 * hydrostatic.lateral_stress()) / 3.0;
-            check("hydrostatic: bulk modulus", young / (3.0 * (1.0 - 2.0 * poisson)), mean / trace, 0.05, "Pa");
-            check("hydrostatic: lateral over axial strain", 1.0, hydrostatic.lateral_strain() / hydrostatic.of("inner_strain_zz"));
+            check("hydrostatic: bulk modulus", young / (3.0 * (1.0 - 2.0 * poisson)), mean / trace, allowed, "Pa");
+            check("hydrostatic: lateral over axial strain", 1.0, hydrostatic.lateral_strain() / hydrostatic.of("inner_strain_zz"), allowed);
             check("hydrostatic: axial stress in the middle, whole section, over the pressure", 1.0, hydrostatic.of("middle_stress"), 0.02);
             report("hydrostatic: mean stress in the inner region over the pressure", mean);
             out.checks.push_back({"hydrostatic: servo, largest error", 0.01, hydrostatic.worst_ratio("axial_stress", "lateral_stress"), 0.0,
@@ -122,12 +119,12 @@ Case elastic_laboratory() {
             // harmonic.
             const double tension = 15.0 / 16.0;
             const double compression = 47.0 / 16.0;
-            check("brazilian: tension in the middle over 2P/(pi D t)", tension, -brazilian.of("inner_stress_yy"));
-            check("brazilian: compression in the middle over 2P/(pi D t)", compression, brazilian.of("inner_stress_xx"));
+            check("brazilian: tension in the middle over 2P/(pi D t)", tension, -brazilian.of("inner_stress_yy"), allowed);
+            check("brazilian: compression in the middle over 2P/(pi D t)", compression, brazilian.of("inner_stress_xx"), allowed);
             check("brazilian: strain across the load, times E", tension + own.poisson * compression,
-                  -own.young * brazilian.of("inner_strain_yy"));
+                  -own.young * brazilian.of("inner_strain_yy"), allowed);
             check("brazilian: strain along the load, times E", compression + own.poisson * tension,
-                  own.young * brazilian.of("inner_strain_xx"));
+                  own.young * brazilian.of("inner_strain_xx"), allowed);
             report("disc: E, inner gauges", own.young, "Pa");
             report("disc: nu, inner gauges", own.poisson);
 
@@ -140,5 +137,17 @@ Case elastic_laboratory() {
             return out;
         }};
 }
+
+} // namespace
+
+Case elastic_laboratory() {
+    return laboratory(
+        "elastic-laboratory",
+        "Every test on unbreakable specimens of full size: moduli and stresses by the inner gauges against elasticity with the "
+        "specimen's own E and nu.",
+        true);
+}
+
+Case elastic_laboratory_small() { return laboratory("elastic-laboratory-small", "The same on small specimens, for every commit.", false); }
 
 } // namespace proveta::verification

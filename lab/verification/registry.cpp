@@ -27,6 +27,7 @@ const std::vector<Case>& cases() {
         area_partition(),
         elastic_study(),
         elastic_laboratory(),
+        elastic_laboratory_small(),
         mesh_convergence(),
         step_convergence(),
         rate_convergence(),

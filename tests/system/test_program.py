@@ -205,7 +205,7 @@ class Series(Case):
         self.assertNotIn("https://", page)
         self.assertIn("results in s", done.stdout)
 
-        alone = self.run_program("run", self.confined("one.json", seed=2, pressure="4 MPa"), "--out", "alone", "--quiet", "--threads", 1)
+        alone = self.run_program("run", self.confined("one.json", seed=2, pressure="4 MPa"), "--out", "alone", "--quiet")
         self.assertEqual(alone.returncode, 0, alone.stderr)
         again = self.run_program("run", "s/manifest.json", "--out", "again", "--quiet", "--threads", 1)
         self.assertEqual((again.returncode, again.stderr), (0, ""))
