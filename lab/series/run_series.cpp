@@ -95,7 +95,8 @@ Specimens make_ready(const Plan& plan, Board& board) {
     out.of.resize(plan.members.size());
     out.hashes.resize(plan.members.size());
     for (std::size_t k = 0; k < plan.members.size() && !interrupted(); ++k) {
-        const auto& [name, deck] = plan.members[k];
+        const std::string& name = plan.members[k].name;
+        const Deck& deck = plan.members[k].deck;
         try {
             auto& specimen = made[origin_of(deck)];
             if (!specimen) {
