@@ -235,7 +235,9 @@ StressServo::Settings servo_settings(const BenchView& bench, double speed_limit)
 Stage isotropic_stage(const BenchView& bench, double pressure, double ramp, double speed_limit, double share, double pace) {
     const double duration = ramp / pace;
     const auto p = [=](double time) { return pressure * smooth_start(time, duration); };
-    const auto control = std::make_shared<StressServo>(p, servo_settings(bench, speed_limit));
+    auto settings = servo_settings(bench, speed_limit);
+    settings.calm_speed = 1.6 * pressure / duration * settings.compliance * bench.press.length; // the steepest of an elastic specimen
+    const auto control = std::make_shared<StressServo>(p, settings);
     return {"isotropic", Stage::Kind::preparing, share, control, [=](const BenchView&) { return control->clock() / duration; }};
 }
 
