@@ -56,7 +56,7 @@ TEST_CASE("tests refuse what does not belong to them, with the reason") {
     CHECK(refuses(R"({"test": "direct-tension", "loading": {"platen_friction": 0.3}})", "/loading/platen_friction", "glued"));
     CHECK(refuses(R"({"test": "ucs", "loading": {"strips": 0.1}})", "/loading/strips", "brazilian"));
     CHECK(refuses(R"({"test": "hydrostatic", "loading": {"rate": 0.1}})", "/loading/rate", "ramp"));
-    CHECK(refuses(R"({"test": "oedometric", "loading": {"ring_diameter": "140 mm"}})", "/loading/ring_diameter", "diameter of 0.15 m"));
+    CHECK(refuses(R"({"test": "oedometric", "loading": {"ring_diameter": "140 mm"}})", "/loading/ring_diameter", "diameter of 15 cm"));
     CHECK(refuses(R"({"test": "oedometric", "loading": {"confining_pressure": 1e6}})", "/loading/confining_pressure", "ring"));
     CHECK(refuses(R"({"test": "triaxial", "loading": {"confining_pressure": "60 MPa", "pressure_ramp": "10 us"}})",
                   "/loading/pressure_ramp", "beyond the limit"));
