@@ -6,22 +6,6 @@
 
 namespace proveta {
 
-std::vector<double> tributary_volumes(const Spheres& s, const Bonds& b) {
-    std::vector<double> volume(s.size(), 0.0);
-    const double dimensions = s.planar ? 2.0 : 3.0; // of a cone's height
-    for (std::size_t k = 0; k < b.size(); ++k) {
-        const double share = b.share[k];
-        volume[static_cast<std::size_t>(b.i[k])] += b.area[k] * share * b.length[k] / dimensions;
-        volume[static_cast<std::size_t>(b.j[k])] += b.area[k] * (1.0 - share) * b.length[k] / dimensions;
-    }
-    for (std::size_t k = 0; k < s.size(); ++k) {
-        if (volume[k] <= 0.0) {
-            volume[k] = s.volume(k);
-        }
-    }
-    return volume;
-}
-
 namespace {
 
 // Sum over a sphere's pairs of branch x force: the branch of i is share_i (x_j - x_i), that of j points the other way, as does its force.
@@ -145,8 +129,12 @@ double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& la
     const double d = to.norm();
     const Vec3 n = to / d;
     const double k_n = b.stiffness[bond];
-    const double elongation = d - (b.length[bond] - b.plastic[bond]);
-    const double before = elongation - (s.velocity.at(j) - s.velocity.at(i)).dot(n) * dt;
+    double elongation = d - (b.length[bond] - b.plastic[bond]);
+    double before = elongation - (s.velocity.at(j) - s.velocity.at(i)).dot(n) * dt;
+    if (b.dilatation.active()) {
+        elongation += b.dilatation.shift[bond];
+        before += b.dilatation.shift_before[bond];
+    }
     const Vec3 slip = b.slip.at(bond);
     const Vec3 force = b.force.at(bond);
     const double work_n = 0.5 * k_n * std::max(elongation, 0.0) * std::max(before, 0.0);

@@ -13,10 +13,6 @@
 
 namespace proveta {
 
-/// Volume that each sphere stands for: the cones from its centre to its bonds' areas, sum of A l / 3 (in a plane A l / 2) with l the
-/// lever arm, m3. A sphere without bonds gets its own volume.
-std::vector<double> tributary_volumes(const Spheres& spheres, const Bonds& bonds);
-
 /// Mean stress of each sphere, compression positive, symmetric, Pa: (1/V) sum over bonds, contacts, platens and pressures of r x F with r
 /// from the centre to the contact point. volume: one a sphere, m3.
 std::vector<Mat3> sphere_stresses(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,

@@ -171,6 +171,24 @@ void Model::block_forces(std::size_t k, const BondView& view, double elapsed, bo
     }
 }
 
+// The averaged part of the stress at the spheres' positions now.
+void Model::average() {
+    const auto& blocks = loads.blocks();
+    const auto bonds_of = [&](std::size_t k, auto&& work) {
+        const auto first = bonds.first_block[k];
+        const auto last = bonds.first_block[k + 1];
+        if (first < last) {
+            work(bonds.blocks[first].begin, bonds.blocks[last - 1].end);
+        }
+    };
+    team_->run(blocks.size(), [&](std::size_t k) {
+        bonds_of(k, [&](std::size_t begin, std::size_t end) { measure_elongations(spheres, bonds, begin, end); });
+    });
+    team_->run(blocks.size(), [&](std::size_t k) { measure_dilatation(bonds, blocks[k].begin, blocks[k].end); });
+    team_->run(blocks.size(),
+               [&](std::size_t k) { bonds_of(k, [&](std::size_t begin, std::size_t end) { set_shifts(bonds, begin, end); }); });
+}
+
 // elapsed: time since the last forces, over which springs are extended and energies counted.
 void Model::forces(double elapsed, bool measure) {
     failures_.clear();
@@ -179,6 +197,9 @@ void Model::forces(double elapsed, bool measure) {
     }
     const bool keep = measure || averaged_;
     prepare_bond_forces(bonds, keep);
+    if (bonds.dilatation.active()) {
+        average();
+    }
     const BondView view = bonds.view();
     team_->run(loads.blocks().size(), [&](std::size_t k) { block_forces(k, view, elapsed, keep); });
 
@@ -213,7 +234,7 @@ void Model::forces(double elapsed, bool measure) {
         fail_by_averaged_stress();
     }
     if (measure) {
-        ledger_.elastic = std::accumulate(bonds.stored.begin(), bonds.stored.end(), stored);
+        ledger_.elastic = std::accumulate(bonds.stored.begin(), bonds.stored.end(), stored) + dilatation_energy(bonds);
     }
 }
 

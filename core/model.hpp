@@ -117,6 +117,7 @@ class Model {
     void search();
     void keep_stable();
     void arrange();
+    void average();
     void forces(double elapsed, bool measure);
     void block_forces(std::size_t block, const BondView& view, double elapsed, bool measure);
     void fail_by_averaged_stress();
@@ -174,6 +175,10 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("bond_mode", bonds.mode);
     if (bonds.moments) {
         field("bond_rotation", bonds.rotation);
+    }
+    if (bonds.dilatation.active()) {
+        visit("bond_shift", bonds.dilatation.shift);
+        visit("dilatation", bonds.dilatation.theta);
     }
     visit("contact_i", contacts.i);
     visit("contact_j", contacts.j);

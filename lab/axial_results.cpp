@@ -101,10 +101,19 @@ std::vector<report::Scalar> cycle_results(const report::Table& curve, double sen
     return out;
 }
 
-std::vector<report::Scalar> energy_results(const report::Table& energy) {
-    return {{"work", "Work of the platens", last_of(energy, "platens"), "J", "to the end of the test"},
-            {"damage_energy", "Energy dissipated by cracking", last_of(energy, "damage"), "J",
-             "damage and failure of bonds, to the end of the test"}};
+std::vector<report::Scalar> energy_results(const Measured& m) {
+    double area = 0.0;
+    double energy = 0.0;
+    for (const auto& failure : m.events) {
+        area += failure.area;
+        energy += failure.energy;
+    }
+    return {{"work", "Work of the platens", last_of(m.energy, "platens"), "J", "to the end of the test"},
+            {"damage_energy", "Energy dissipated by cracking", last_of(m.energy, "damage"), "J",
+             "damage and failure of bonds, to the end of the test"},
+            {"crack_area", "Area of the cracks", area, "m2", "sum of the areas of failed bonds, to the end of the test"},
+            {"crack_energy", "Energy per area of the cracks", area > 0.0 ? std::optional(energy / area) : std::nullopt, "J/m2",
+             "dissipated by the bonds that failed, over their area"}};
 }
 
 PlotSpec stress_strain_plot(const std::string& title, const std::string& stress) {

@@ -19,8 +19,8 @@ std::vector<report::Scalar> softening_results(const Loading& loading);
 /// Modulus of each unloading: secant from where the platens turned back to where they turned again.
 std::vector<report::Scalar> cycle_results(const report::Table& curve, double sense);
 
-/// Work of the platens and of the pressure, and what cracking took of it.
-std::vector<report::Scalar> energy_results(const report::Table& energy);
+/// Work of the platens, what cracking took of it, and the cracks' area.
+std::vector<report::Scalar> energy_results(const Measured& measured);
 
 /// Peak of a list if the list has fallen 5 % below it since, or else empty.
 std::optional<double> peak_if_passed(const std::vector<double>& y);

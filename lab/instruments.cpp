@@ -8,7 +8,7 @@
 
 namespace proveta {
 
-Instruments::Instruments(const Bench& bench) {
+Instruments::Instruments(const Bench& bench) : gauges_(bench.specimen.shape, bench.model->spheres) {
     const Shape& shape = bench.specimen.shape;
     const Spheres& s = bench.model->spheres;
     height_ = shape.height;
@@ -20,54 +20,9 @@ Instruments::Instruments(const Bench& bench) {
             inside_.push_back(k);
         }
     }
-    // Middle gauge: as long as the specimen is wide, at most half its height, between two bands of three mean radii.
-    const double length = std::min(shape.lateral_size(), 0.5 * shape.height);
-    const double half_band = 1.5 * bench.statistics.mean_radius;
-    const auto fill = [&](Band& band, double z) {
-        for (std::size_t k = 0; k < s.size(); ++k) {
-            if (std::fabs(s.start.z[k] - z) <= half_band) {
-                band.spheres.push_back(k);
-                band.height += s.start.z[k];
-            }
-        }
-        band.height /= std::max<double>(1.0, static_cast<double>(band.spheres.size()));
-    };
-    fill(lower_, 0.5 * (shape.height - length));
-    fill(upper_, 0.5 * (shape.height + length));
-    // Circumferential gauge: skin spheres within a sixth of the height about the middle.
-    for (std::size_t k = 0; k < s.size(); ++k) {
-        const Vec3 p = s.start.at(k);
-        const bool at_side = shape.depth_below_side(p) < 1.2 * s.radius[k];
-        if (at_side && std::fabs(p.z() - 0.5 * shape.height) <= shape.height / 12.0) {
-            girth_.push_back(k);
-            girth_radius_.push_back(std::hypot(p.x(), p.y()));
-        }
-    }
 }
 
-double Instruments::mean_rise(const Model& model, const Band& band) const {
-    double sum = 0.0;
-    double count = 0.0;
-    for (const auto k : band.spheres) {
-        if (off_[k] == 0) {
-            sum += model.spheres.position.z[k] - model.spheres.start.z[k];
-            count += 1.0;
-        }
-    }
-    return sum / std::max(1.0, count);
-}
-
-double Instruments::girth_strain(const Model& m) const {
-    double sum = 0.0;
-    double count = 0.0;
-    for (std::size_t k = 0; k < girth_.size(); ++k) {
-        if (off_[girth_[k]] == 0) {
-            sum += 1.0 - std::hypot(m.spheres.position.x[girth_[k]], m.spheres.position.y[girth_[k]]) / girth_radius_[k];
-            count += 1.0;
-        }
-    }
-    return sum / std::max(1.0, count);
-}
+double Instruments::girth_strain(const Model& m) const { return gauges_.girth_strain(m.spheres.position, off_); }
 
 // Least squares of u = a + G x over the spheres of the region.
 Mat3 Instruments::mean_strain(const Model& m) const {
@@ -184,8 +139,7 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
     const Mat3 stretched = mean_strain(m);
     const Vec3 along = m.platens[0].face.axis;
     const Vec3 across = Vec3::UnitZ().cross(along);
-    const double gauge =
-        press.bands ? (mean_rise(m, lower_) - mean_rise(m, upper_)) / (upper_.height - lower_.height) : along.dot(stretched * along);
+    const double gauge = press.bands ? gauges_.axial_strain(m.spheres.position, off_) : along.dot(stretched * along);
     const double girth = press.bands ? girth_strain(m) : across.dot(stretched * across);
     const double volume = press.bands ? gauge + (m.spheres.planar ? 1.0 : 2.0) * girth : stretched.trace();
     double held = 0.0;

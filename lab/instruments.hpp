@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lab/bench.hpp"
+#include "lab/gauges.hpp"
 #include "reports/record/record.hpp"
 
 namespace proveta {
@@ -41,16 +42,8 @@ class Instruments {
     [[nodiscard]] Mat3 mean_stress(const Model& model, const Shape::Region& region) const;
 
   private:
-    struct Band {
-        std::vector<std::size_t> spheres;
-        double height = 0.0; ///< mean z at the start, m
-    };
-    [[nodiscard]] double mean_rise(const Model& model, const Band& band) const;
-
     double height_ = 0.0;
-    Band lower_, upper_;               // ends of the middle gauge
-    std::vector<std::size_t> girth_;   // lateral skin at mid-height
-    std::vector<double> girth_radius_; // their distance from the axis at the start, m
+    Gauges gauges_;
     Shape::Region inner_;
     Shape::Region middle_;            // the whole section over the middle of the height
     std::vector<std::size_t> inside_; // spheres of the inner region

@@ -114,6 +114,9 @@ report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
                                          bench.dropped, 100.0 * bench.laguerre->unbonded_share, bench.laguerre->volume_ratio,
                                          bench.laguerre->without_cell)});
     }
+    for (const auto& calibration : bench.calibrations) {
+        t.rows.push_back({"Elasticity of " + calibration.name, text_of(calibration.result)});
+    }
     t.rows.push_back({"Mass scaling", text_of(bench.model->mass_scaling())});
     return t;
 }
@@ -150,9 +153,11 @@ report::Table event_table(const std::vector<FailureEvent>& events) {
                  {"y", "m", "the same"},
                  {"z", "m", "the same"},
                  {"mode", "", "1 tension, 2 shear"},
-                 {"energy", "J", "dissipated by the bond's damage, from first softening to failure"}};
+                 {"energy", "J", "dissipated by the bond's damage, from first softening to failure"},
+                 {"area", "m2", "of the bond"}};
     for (const auto& e : events) {
-        t.rows.push_back({e.time, e.axial_strain, e.position.x(), e.position.y(), e.position.z(), static_cast<double>(e.mode), e.energy});
+        t.rows.push_back(
+            {e.time, e.axial_strain, e.position.x(), e.position.y(), e.position.z(), static_cast<double>(e.mode), e.energy, e.area});
     }
     return t;
 }
@@ -216,6 +221,14 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
                             bench.dropped, 100.0 * bench.laguerre->unbonded_share));
         }
     }
+    for (const auto& calibration : bench.calibrations) {
+        if (!calibration.result.in_reach) {
+            r.warnings.push_back(
+                fmt::format("{}: Poisson's ratio {:.4g} is out of reach of the bond model, which comes to {:.3f} here; E is "
+                            "the card's. \"elasticity\": \"calibrated\" reaches higher ratios by the averaged stress.",
+                            calibration.name, calibration.result.wanted_poisson_ratio, calibration.result.poisson_ratio));
+        }
+    }
     if (bench.model->dt() < bench.model->first_dt()) {
         r.warnings.push_back(
             fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when new contacts had made the specimen stiffer.",
@@ -262,6 +275,15 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
                      {"area_filling", bench.partition.filling},
                      {"fabric_deviator", s.fabric_deviator},
                      {"largest_overlap", s.largest_overlap}};
+    for (const auto& [material, found] : bench.calibrations) {
+        j["elasticity"].push_back({{"material", material},
+                                   {"normal_factor", found.factors.normal_factor},
+                                   {"shear_factor", found.factors.shear_factor},
+                                   {"averaged_factor", found.factors.averaged_factor},
+                                   {"young_modulus", found.young_modulus},
+                                   {"poisson_ratio", found.poisson_ratio},
+                                   {"in_reach", found.in_reach}});
+    }
     if (bench.area_factor) {
         j["specimen"]["area_factor"] = *bench.area_factor;
     }

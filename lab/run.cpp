@@ -67,6 +67,9 @@ void save(const Deck& deck, const Bench& bench, const OutputFolder& out) {
 void log_set_up(const Bench& bench, double seconds, const RunWatch& watch) {
     watch.log(fmt::format("{} bonds, {:.2f} a sphere; step {:.3g} s of at most {:.3g} s; set up in {:.1f} s", bench.model->bonds.size(),
                           bench.coordination, bench.model->dt(), bench.model->stable_step(), seconds));
+    for (const auto& calibration : bench.calibrations) {
+        watch.log(fmt::format("elasticity of {}: {}", calibration.name, text_of(calibration.result)));
+    }
     if (const auto& scaling = bench.model->mass_scaling(); scaling.spheres > 0) {
         watch.log(text_of(scaling));
     }

@@ -46,7 +46,8 @@ void record_failures(const Model& model, double strain, Instruments& instruments
         const auto i = static_cast<std::size_t>(model.bonds.i[failure.bond]);
         const auto j = static_cast<std::size_t>(model.bonds.j[failure.bond]);
         const Vec3 middle = 0.5 * (model.spheres.position.at(i) + model.spheres.position.at(j));
-        events.push_back({model.time(), strain, middle, failure.mode, model.bonds.damage_work[failure.bond]});
+        events.push_back(
+            {model.time(), strain, middle, failure.mode, model.bonds.damage_work[failure.bond], model.bonds.area[failure.bond]});
         instruments.count(failure.mode);
     }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <tuple>
 
 #include "core/input/suggest.hpp"
 #include "materials/builtin_cards.hpp"
@@ -39,11 +40,21 @@ void declare(input::Visitor& v, Card& c) {
                      {{"auto", "40 P / N_c of the specimen's porosity and mean coordination (5.6); only with minimum_radius"}}, Unit::none,
                      above(0), "global factor alpha on all areas (5.5)");
     v.number("density", c.density, Unit::density, above(0), "density of the spheres");
-    v.number("young_modulus", c.young_modulus, Unit::pressure, above(0), "Young's modulus E0 given to the bonds (5.34)");
+    v.choice("elasticity", c.elasticity,
+             {{"calibrated",
+               "the specimen's: factors a and b are found for each specimen so that it has this E and nu; where no k_t / k_n gives nu, the "
+               "averaged part of the stress gives the rest"},
+              {"calibrated-bonds", "the same without the averaged part: the nearest nu that bonds alone reach"},
+              {"as-given", "the bonds': E and nu go into them with the factors given here, and the specimen has what follows"}},
+             "whose Young's modulus and Poisson's ratio the card gives");
+    v.number("young_modulus", c.young_modulus, Unit::pressure, above(0), "Young's modulus; as-given: E0 of the bonds (5.34)");
     v.number("poisson_ratio", c.poisson_ratio, Unit::none, {-1.0, 0.5, true, false},
-             "Poisson's ratio given to the bonds: G = E0 / (2 (1 + nu))");
-    v.number("normal_factor", c.normal_factor, Unit::none, above(0), "a in k_n = a E0 A / L (5.34)");
-    v.number("shear_factor", c.shear_factor, Unit::none, at_least(0), "b in k_t = b G A / L (5.34)");
+             "Poisson's ratio; as-given: of the bonds, G = E0 / (2 (1 + nu))");
+    v.number("normal_factor", c.normal_factor, Unit::none, above(0), "a in k_n = a E0 A / L (5.34); only as-given");
+    v.number("shear_factor", c.shear_factor, Unit::none, at_least(0), "b in k_t = b G A / L (5.34); only as-given");
+    v.number("averaged_factor", c.averaged_factor, Unit::none, at_least(0),
+             "lambda / (a E0): averaged part of the stress, which raises nu beyond what bonds alone reach (Celigueta et al. 2017, from a "
+             "potential); only as-given");
     v.number("strength_factor", c.strength_factor, Unit::none, above(0), "factor on sigma_f, tau_f and the LCS");
     v.number("sigma_f", c.sigma_f, Unit::pressure, at_least(0), "tensile strength of a bond (5.21)");
     v.number("tau_f", c.tau_f, Unit::pressure, at_least(0), "shear strength of a bond without normal force (5.21)");
@@ -91,6 +102,7 @@ Material to_material(const Card& c) {
     m.poisson_ratio = c.poisson_ratio;
     m.normal_factor = c.normal_factor;
     m.shear_factor = c.shear_factor;
+    m.averaged_factor = c.averaged_factor;
     m.local_damping = c.local_damping;
     m.contact_restitution = c.contact_restitution;
     m.restitution_rule = c.restitution_rule == "nominal" ? RestitutionRule::nominal : RestitutionRule::corrected;
@@ -130,6 +142,18 @@ void check_card(const Card& c, const std::string& source, const std::string& pat
         problems.push_back({source, path + "/area_factor", "\"auto\" with the area rule " + c.area_rule,
                             "a number, or the area rule minimum_radius", "40 P / N_c corrects that rule's areas (5.4-5.6) and no other's"});
     }
+    for (const auto& [key, value, neutral] : {std::tuple{"normal_factor", c.normal_factor, 1.0},
+                                              {"shear_factor", c.shear_factor, 1.0},
+                                              {"averaged_factor", c.averaged_factor, 0.0}}) {
+        if (c.elasticity != "as-given" && value != neutral) {
+            problems.push_back({source, path + "/" + key, fmt::format("{:.4g} with elasticity \"{}\"", value, c.elasticity),
+                                "left out, or \"elasticity\": \"as-given\"", "calibration finds the factors for each specimen"});
+        }
+    }
+    if (c.elasticity != "as-given" && (c.poisson_ratio < -0.3 || c.poisson_ratio > 0.49)) {
+        problems.push_back({source, path + "/poisson_ratio", fmt::format("{:.4g} with elasticity \"{}\"", c.poisson_ratio, c.elasticity),
+                            "a specimen's ratio between -0.3 and 0.49", "or \"elasticity\": \"as-given\" for the bonds' own"});
+    }
     for (std::size_t k = 1; k < 3; ++k) {
         if (c.lcs[k] <= c.lcs[k - 1]) {
             problems.push_back({source, path + "/lcs",
@@ -146,10 +170,12 @@ void check_card(const Card& c, const std::string& source, const std::string& pat
     only_thesis(c.criterion != "bond", "criterion", "\"" + c.criterion + "\"");
     only_thesis(c.fracture_energy_tension > 0.0, "fracture_energy_tension", fmt::format("{:.4g} J/m2", c.fracture_energy_tension));
     only_thesis(c.fracture_energy_shear > 0.0, "fracture_energy_shear", fmt::format("{:.4g} J/m2", c.fracture_energy_shear));
+    only_thesis(c.averaged_factor > 0.0, "averaged_factor", fmt::format("{}", c.averaged_factor));
+    only_thesis(c.elasticity == "calibrated", "elasticity", "\"calibrated\"");
     only_thesis(c.bending_factor > 0.0, "bending_factor", fmt::format("{}", c.bending_factor));
     if (c.criterion != "bond" && (c.fracture_energy_tension > 0.0 || c.fracture_energy_shear > 0.0)) {
         problems.push_back({source, path + "/criterion", "\"" + c.criterion + "\" together with a fracture energy", "one of the two",
-                            "an averaged criterion fails bonds at once"});
+                            "an averaged criterion fails bonds at once: set fracture_energy_tension and fracture_energy_shear to 0"});
     }
     only_thesis(c.twisting_factor > 0.0, "twisting_factor", fmt::format("{}", c.twisting_factor));
 }

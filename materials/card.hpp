@@ -20,10 +20,12 @@ struct Card {
     std::string area_rule = "virtual_polyhedron";
     input::NumberOrWord area_factor{1.0, ""};
     double density = 2500.0;
+    std::string elasticity = "calibrated";
     double young_modulus = 28.0e9;
     double poisson_ratio = 0.2;
     double normal_factor = 1.0;
     double shear_factor = 1.0;
+    double averaged_factor = 0.0;
     double strength_factor = 1.0;
     double sigma_f = 5.0e6;
     double tau_f = 16.0e6;

@@ -49,8 +49,6 @@ void declare(input::Visitor& v, SpecimenRecipe& r) {
     v.integer("seed", r.seed, 0, INT64_MAX, "number that the packing's randomness starts from");
 }
 
-namespace {
-
 Shape shape_of(const SpecimenRecipe& r) {
     Shape s;
     s.kind = r.shape == "prism" ? ShapeKind::prism : (r.shape == "plate" ? ShapeKind::plate : ShapeKind::cylinder);
@@ -60,6 +58,8 @@ Shape shape_of(const SpecimenRecipe& r) {
     s.height = r.height;
     return s;
 }
+
+namespace {
 
 // Radii in m that fill the shape to the wished porosity.
 std::vector<double> radii_of(const SpecimenRecipe& r) {

@@ -48,6 +48,9 @@ struct SpecimenRecipe {
 void declare(input::Visitor& v, GradingPoint& point);
 void declare(input::Visitor& v, SpecimenRecipe& recipe);
 
+/// The solid that a recipe fills; not that of a stored specimen.
+Shape shape_of(const SpecimenRecipe& recipe);
+
 /// Porosity that a recipe asks for: the number, or what "auto" stands for in its shape.
 double porosity_of(const SpecimenRecipe& recipe);
 

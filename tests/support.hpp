@@ -24,10 +24,11 @@ inline Bonds one_bond(const Spheres& s, const Material& m) {
     return make_bonds(s, {m}, {{0, 1}}, {0, 0}, weight);
 }
 
-/// A deck of a compression test on a small specimen.
+/// A deck of a compression test on a small specimen, which softens by ratio: its strengths may be anything.
 inline Deck small_deck(int spheres, const std::string& more = "{}") {
     input::Json json = input::Json::parse(R"({"test": "ucs", "specimen": {"diameter": "50 mm", "height": "100 mm"}})");
     json["specimen"]["spheres"] = spheres;
+    json["material"] = {{"fracture_energy_tension", 0}, {"fracture_energy_shear", 0}};
     json.merge_patch(input::Json::parse(more));
     return read_deck(json, "test.json");
 }

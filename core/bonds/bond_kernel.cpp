@@ -97,6 +97,12 @@ PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const
     dempack::Kinematics<T> kin;
     kin.shortening = load<T>(&bonds.length[b]) - pair.distance;
     kin.approach = -pair.separation * dt;
+    const T moved = kin.approach; // of the spheres themselves
+    if (bonds.shift != nullptr) {
+        const T shift = load<T>(&bonds.shift[b]);
+        kin.shortening = kin.shortening - shift;
+        kin.approach = kin.approach - (shift - load<T>(&bonds.shift_before[b]));
+    }
     dempack::State<T> state;
     for (int c = 0; c < 3; ++c) {
         kin.slip[c] = pair.slip[c];
@@ -124,7 +130,7 @@ PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const
         const T bounded = select(r.normal > T(0.0), select(r.normal + viscous > T(0.0), viscous, -r.normal), T(0.0));
         const T dashpot = select(broken, bounded, viscous);
         normal = normal + dashpot;
-        const T lost = dashpot * kin.approach;
+        const T lost = dashpot * moved;
         for (std::size_t k = 0; k < lane_count<T>(); ++k) {
             out.dissipation.dashpot += in_lane(lost, k);
         }

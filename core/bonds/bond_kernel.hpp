@@ -35,6 +35,7 @@ struct BondView {
     double *normal, *shear, *criterion, *stored;
     double* rotation[3]; ///< only of bonds with moments
     double* couple[3];
+    const double *shift, *shift_before; ///< of the elongation, by the averaged stress (dilatation.hpp); null: none
     bool damped;
 };
 

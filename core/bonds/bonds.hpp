@@ -6,6 +6,7 @@
 
 #include "core/bonds/areas.hpp"
 #include "core/bonds/bond_kernel.hpp"
+#include "core/bonds/dilatation.hpp"
 #include "core/bonds/material.hpp"
 #include "core/contacts/incidence.hpp"
 #include "core/particles/spheres.hpp"
@@ -41,6 +42,7 @@ struct Bonds {
     Incidence incidence;                    ///< bonds of each sphere
     VectorField rotation;                   ///< theta of bonds with moments, rad; empty without
     VectorField couple;                     ///< moment of j on i of bonds with moments, N m; empty without
+    Dilatation dilatation;                  ///< the averaged part of the stress, for Poisson's ratios that bonds alone do not reach
     std::vector<BondLaw> laws;
     std::vector<BondBlock> blocks;
     std::vector<std::uint32_t> first_block; ///< of each block of spheres, and the number of blocks

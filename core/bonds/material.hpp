@@ -26,6 +26,7 @@ struct Material {
     double poisson_ratio = 0.2;       ///< of the bond: G = E / (2 (1 + nu))
     double normal_factor = 1.0;       ///< a in k_n = a E A / L (5.34)
     double shear_factor = 1.0;        ///< b in k_t = b G A / L
+    double averaged_factor = 0.0;     ///< lambda / (a E): averaged part of the stress (dilatation.hpp); 0: none
     double local_damping = 0.0;       ///< xi of the dashpot c_n = 2 xi sqrt(m_eq k_n) in each bond
     double contact_restitution = 0.2; ///< normal restitution of new contacts
     RestitutionRule restitution_rule = RestitutionRule::corrected;

@@ -65,6 +65,8 @@ BondView Bonds::view() {
             stored.data(),
             {rotation.x.data(), rotation.y.data(), rotation.z.data()},
             {couple.x.data(), couple.y.data(), couple.z.data()},
+            dilatation.active() ? dilatation.shift.data() : nullptr,
+            dilatation.active() ? dilatation.shift_before.data() : nullptr,
             damped};
 }
 
@@ -194,6 +196,12 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
         b.couple.resize(b.size());
     }
     b.incidence = make_incidence(spheres.size(), b.i, b.j);
+    std::vector<double> modulus(spheres.size());
+    for (std::size_t s = 0; s < spheres.size(); ++s) {
+        const Material& m = materials[static_cast<std::size_t>(spheres.material[s])];
+        modulus[s] = m.averaged_factor * m.normal_factor * m.young_modulus;
+    }
+    set_dilatation(spheres, modulus, b);
     return b;
 }
 

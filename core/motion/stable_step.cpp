@@ -106,17 +106,31 @@ std::vector<std::uint32_t> laws_of(const Bonds& bonds) {
     return law;
 }
 
+// Stiffness of each bond along its line, with its averaged part, and across.
+struct Springs {
+    std::vector<double> k_n, k_t;
+
+    explicit Springs(const Bonds& bonds) : k_n(stiffening(bonds)), k_t(bonds.size()) {
+        for (const auto& block : bonds.blocks) {
+            for (auto b = block.begin; b < block.end; ++b) {
+                k_n[b] *= bonds.stiffness[b];
+                k_t[b] = bonds.laws[block.law].shear_ratio * bonds.stiffness[b];
+            }
+        }
+    }
+};
+
 // The springs of one sphere's bonds and, with the same split, their moments. law: of each bond, as `laws_of`. Failed bonds that are farther
 // apart than the skin cannot act before the next search.
-void add_bonds(const Spheres& s, const Bonds& bonds, const std::vector<double>& k_t, const std::vector<std::uint32_t>& law,
-               std::size_t sphere, const std::vector<double>& g, double skin, Block& block) {
+void add_bonds(const Spheres& s, const Bonds& bonds, const Springs& springs, const std::vector<std::uint32_t>& law, std::size_t sphere,
+               const std::vector<double>& g, double skin, Block& block) {
     add_pairs(
         s, bonds,
         [&](std::size_t p, double d) {
             if (bonds.mode[p] != 0 && d > bonds.length[p] - bonds.plastic[p] + skin) {
                 return Stiffness{0.0, 0.0, 0.0, 0.0};
             }
-            return Stiffness{bonds.stiffness[p], k_t[p], bonds.dashpot[p], 0.0};
+            return Stiffness{springs.k_n[p], springs.k_t[p], bonds.dashpot[p], 0.0};
         },
         [](std::size_t) { return 0.0; }, sphere, g, block);
     for (auto e = bonds.incidence.offset[sphere]; bonds.moments && e < bonds.incidence.offset[sphere + 1]; ++e) {
@@ -129,22 +143,12 @@ void add_bonds(const Spheres& s, const Bonds& bonds, const std::vector<double>& 
     }
 }
 
-std::vector<double> shear_stiffness(const Bonds& bonds) {
-    std::vector<double> k_t(bonds.size());
-    for (const auto& block : bonds.blocks) {
-        for (auto b = block.begin; b < block.end; ++b) {
-            k_t[b] = bonds.laws[block.law].shear_ratio * bonds.stiffness[b];
-        }
-    }
-    return k_t;
-}
-
 } // namespace
 
 double SphereDemand::step() const { return stiffness > 0.0 ? left / (damping + std::sqrt(damping * damping + left * stiffness)) : 1e300; }
 
 StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.0) {
-    const auto k_t = shear_stiffness(bonds);
+    const Springs springs(bonds);
     const auto law = laws_of(bonds);
     std::vector<double> best = share_;
     single_ = share_;
@@ -156,7 +160,7 @@ StepBound::StepBound(const Spheres& s, const Bonds& bonds) : share_(s.size(), 1.
 #pragma omp parallel for schedule(static) if (s.size() > 256)
         for (std::size_t k = 0; k < s.size(); ++k) {
             Block block;
-            add_bonds(s, bonds, k_t, law, k, share_, 0.0, block);
+            add_bonds(s, bonds, springs, law, k, share_, 0.0, block);
             eigenvalue[k] = block.demand(s.mass[k], s.inertia[k]).stiffness;
         }
         const double largest = eigenvalue.empty() ? 0.0 : *std::max_element(eigenvalue.begin(), eigenvalue.end());
@@ -202,13 +206,13 @@ Walls walls_of(const Spheres& s, const std::vector<Platen>& platens) {
 template <class Use>
 void StepBound::each_block(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens, double skin,
                            const Use& use) const {
-    const auto k_t = shear_stiffness(bonds);
+    const Springs springs(bonds);
     const auto law = laws_of(bonds);
     const Walls walls = walls_of(s, platens);
 #pragma omp parallel for schedule(static) if (s.size() > 256)
     for (std::size_t k = 0; k < s.size(); ++k) {
         Block block;
-        add_bonds(s, bonds, k_t, law, k, share_, skin, block);
+        add_bonds(s, bonds, springs, law, k, share_, skin, block);
         if (contacts.size() > 0) {
             add_pairs(
                 s, contacts,
@@ -267,47 +271,6 @@ std::vector<StepBound::Offender> StepBound::offenders(const Spheres& s, const Bo
         }
     }
     return out;
-}
-
-double largest_eigenvalue(const Spheres& s, const Bonds& bonds, int iterations) {
-    const auto k_t = shear_stiffness(bonds);
-    using Vec = Eigen::VectorXd;
-    const auto n = static_cast<Eigen::Index>(s.size());
-    Vec scale(6 * n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-        scale.segment<3>(6 * k).setConstant(1.0 / std::sqrt(s.mass[static_cast<std::size_t>(k)]));
-        scale.segment<3>(6 * k + 3).setConstant(1.0 / std::sqrt(s.inertia[static_cast<std::size_t>(k)]));
-    }
-    Vec x(6 * n);
-    for (Eigen::Index k = 0; k < 6 * n; ++k) {
-        x[k] = std::sin(12.9898 * static_cast<double>(k + 1)); // any start that is not orthogonal to the mode sought
-    }
-    double lambda = 0.0;
-    for (int it = 0; it < iterations; ++it) {
-        const Vec q = scale.cwiseProduct(x.normalized());
-        Vec f = Vec::Zero(6 * n);
-        for (std::size_t b = 0; b < bonds.size(); ++b) {
-            const auto i = static_cast<std::size_t>(bonds.i[b]);
-            const auto j = static_cast<std::size_t>(bonds.j[b]);
-            const auto a = 6 * static_cast<Eigen::Index>(i);
-            const auto c = 6 * static_cast<Eigen::Index>(j);
-            const Vec3 to = s.position.at(j) - s.position.at(i);
-            const double d = to.norm();
-            const Vec3 n_ij = to / d;
-            const double l_i = bonds.share[b] * d;
-            const double l_j = d - l_i;
-            const Vec3 rel = q.segment<3>(c) - q.segment<3>(a) - (l_i * q.segment<3>(a + 3) + l_j * q.segment<3>(c + 3)).cross(n_ij);
-            const Vec3 along = n_ij * n_ij.dot(rel);
-            const Vec3 force = bonds.stiffness[b] * along + k_t[b] * (rel - along);
-            f.segment<3>(a) -= force;
-            f.segment<3>(c) += force;
-            f.segment<3>(a + 3) -= l_i * n_ij.cross(force);
-            f.segment<3>(c + 3) -= l_j * n_ij.cross(force);
-        }
-        x = scale.cwiseProduct(f);
-        lambda = x.norm();
-    }
-    return lambda;
 }
 
 } // namespace proveta

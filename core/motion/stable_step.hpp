@@ -65,7 +65,4 @@ class StepBound {
     std::vector<double> single_; // g for any other pair: the sphere's own frequency
 };
 
-/// Largest eigenvalue of M^-1 K of the undamaged bond network by power iteration, rad2/s2; a check on the bound.
-double largest_eigenvalue(const Spheres& spheres, const Bonds& bonds, int iterations);
-
 } // namespace proveta

@@ -1,11 +1,12 @@
 #include "core/statics/elastic.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
+#include <omp.h>
+
 #include <Eigen/SparseCholesky>
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
+
+#include "core/statics/two_level.hpp"
 
 namespace proveta {
 
@@ -13,158 +14,165 @@ namespace {
 
 using Vec = Eigen::VectorXd;
 using Index = Eigen::Index;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-using Mat36 = Eigen::Matrix<double, 3, 6>;
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using ColMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor>;
+using Matrix = Eigen::SparseMatrix<double>;
 
-// A bond as a spring: its force on i is K (relative displacement at the contact point), that displacement of_j q_j - of_i q_i.
-struct Spring {
-    Mat3 stiffness;
-    Mat36 of_i, of_j;
+// Which of the components may move, and where the others stay.
+struct Freedom {
+    Vec free;
+    Vec prescribed;
 };
 
-Spring spring(const Spheres& s, const Bonds& b, std::size_t k, double shear_ratio) {
-    const Vec3 to = s.position.at(static_cast<std::size_t>(b.j[k])) - s.position.at(static_cast<std::size_t>(b.i[k]));
-    const double d = to.norm();
-    const Vec3 n = to / d;
-    const double lever_i = b.share[k] * d;
-    const Mat3 nn = n * n.transpose();
-    Mat3 cross; // n x
-    cross << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
-    Spring out;
-    out.stiffness = b.stiffness[k] * (nn + shear_ratio * (Mat3::Identity() - nn));
-    // u_j - u_i - (l_i w_i + l_j w_j) x n, and w x n = -(n x) w
-    out.of_i << Mat3::Identity(), -lever_i * cross;
-    out.of_j << Mat3::Identity(), (d - lever_i) * cross;
+Freedom freedom(const BondNetwork& network, const std::vector<Support>& supports, const Spheres& spheres) {
+    const bool moving[6] = {true, !spheres.planar, true, !spheres.planar, true, !spheres.planar};
+    Freedom out{Vec::Zero(6 * static_cast<Index>(spheres.size())), Vec::Zero(6 * static_cast<Index>(spheres.size()))};
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        // Components that nothing holds stay where they are. A shear stiffness of zero leaves round-off of the normal one.
+        const BondNetwork::Vec6 own = network.diagonal(k).diagonal();
+        for (int c = 0; c < 6; ++c) {
+            const double stiffest = own.head<3>().maxCoeff() * (c < 3 ? 1.0 : spheres.radius[k] * spheres.radius[k]);
+            out.free[6 * static_cast<Index>(k) + c] = moving[c] && own[c] > 1e-14 * stiffest ? 1.0 : 0.0;
+        }
+    }
+    for (const auto& support : supports) {
+        if (support.sphere >= spheres.size() || support.component < 0 || support.component > 5 || !moving[support.component]) {
+            throw std::invalid_argument("a support of a sphere or component that is not there");
+        }
+        const auto at = 6 * static_cast<Index>(support.sphere) + support.component;
+        out.free[at] = 0.0;
+        out.prescribed[at] = support.value;
+    }
     return out;
 }
 
-class Network {
-  public:
-    Network(const Spheres& spheres, const Bonds& bonds) : b_(bonds), n_(spheres.size()) {
-        springs_.resize(bonds.size());
-        for (const auto& block : bonds.blocks) {
-            for (std::size_t k = block.begin; k < block.end; ++k) {
-                springs_[k] = spring(spheres, bonds, k, bonds.laws[block.law].shear_ratio);
-            }
-        }
-        if (spheres.planar) {
-            moving_ = {true, false, true, false, true, false};
+// Forces of what bearings rest on, where that moves.
+Vec bearing_loads(const BondNetwork& network) {
+    Vec f = Vec::Zero(6 * static_cast<Index>(network.spheres()));
+    for (const auto& bearing : network.bearings()) {
+        const Vec3 push = bearing.stiffness * bearing.motion;
+        f.segment<3>(6 * static_cast<Index>(bearing.sphere)) += push;
+        f.segment<3>(6 * static_cast<Index>(bearing.sphere) + 3) += bearing.arm.cross(push);
+    }
+    return f;
+}
+
+// Bending the free components' rows and columns out of the network, numbered one after the other.
+Matrix assemble(const BondNetwork& network, const Vec& free, const Vec& added, std::vector<int>& number) {
+    int unknowns = 0;
+    number.assign(static_cast<std::size_t>(free.size()), -1);
+    for (Index k = 0; k < free.size(); ++k) {
+        if (free[k] > 0.0) {
+            number[static_cast<std::size_t>(k)] = unknowns++;
         }
     }
-
-    [[nodiscard]] bool moves(int component) const { return moving_[static_cast<std::size_t>(component)]; }
-
-    // Stiffness of each component with everything else held.
-    [[nodiscard]] Vec diagonal() const {
-        Vec d = Vec::Zero(static_cast<Index>(6 * n_));
-        for (std::size_t k = 0; k < b_.size(); ++k) {
-            d.segment<6>(at(b_.i[k])) += (springs_[k].of_i.transpose() * springs_[k].stiffness * springs_[k].of_i).diagonal();
-            d.segment<6>(at(b_.j[k])) += (springs_[k].of_j.transpose() * springs_[k].stiffness * springs_[k].of_j).diagonal();
-        }
-        return d;
-    }
-
-    // K q, the energy, and each bond's force on its sphere i.
-    [[nodiscard]] Vec forces(const Vec& q, double& energy, VectorField& bond) const {
-        bond.resize(b_.size());
-        Vec f = Vec::Zero(q.size());
-        energy = 0.0;
-        for (std::size_t k = 0; k < b_.size(); ++k) {
-            const auto& e = springs_[k];
-            const Vec3 stretch = e.of_j * q.segment<6>(at(b_.j[k])) - e.of_i * q.segment<6>(at(b_.i[k]));
-            const Vec3 force = e.stiffness * stretch;
-            f.segment<6>(at(b_.j[k])) += e.of_j.transpose() * force;
-            f.segment<6>(at(b_.i[k])) -= e.of_i.transpose() * force;
-            bond.set(k, force);
-            energy += 0.5 * stretch.dot(force);
-        }
-        return f;
-    }
-
-    // Rows and columns of the free components, in the numbering `number` (-1: not free), row by row so that every entry is summed in the
-    // order of its sphere's bonds.
-    [[nodiscard]] RowMatrix assemble(const std::vector<Index>& number, Index unknowns, const Vec& anchor) const {
-        RowMatrix k(unknowns, unknowns);
-        std::vector<int> room(static_cast<std::size_t>(unknowns));
-        for (std::size_t sphere = 0; sphere < n_; ++sphere) {
-            const auto bonds = b_.incidence.offset[sphere + 1] - b_.incidence.offset[sphere];
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto put = [&](std::size_t a, std::size_t b, const BondNetwork::Mat6& m) {
+        for (std::size_t r = 0; r < 6; ++r) {
             for (std::size_t c = 0; c < 6; ++c) {
-                if (number[6 * sphere + c] >= 0) {
-                    room[static_cast<std::size_t>(number[6 * sphere + c])] = 6 * (static_cast<int>(bonds) + 1);
+                if (number[6 * a + r] >= number[6 * b + c] && number[6 * b + c] >= 0) {
+                    entries.emplace_back(number[6 * a + r], number[6 * b + c], m(static_cast<Index>(r), static_cast<Index>(c)));
                 }
             }
         }
-        k.reserve(room);
-        std::vector<std::pair<std::size_t, Mat6>> row;
-        for (std::size_t sphere = 0; sphere < n_; ++sphere) {
-            row.assign(1, {sphere, Mat6::Zero()});
-            for (auto e = b_.incidence.offset[sphere]; e < b_.incidence.offset[sphere + 1]; ++e) {
-                const auto bond = b_.incidence.entry[e] >> 1;
-                const bool second = (b_.incidence.entry[e] & 1u) != 0;
-                const Spring& sp = springs_[bond];
-                const Mat36& mine = second ? sp.of_j : sp.of_i;
-                const Mat36& other = second ? sp.of_i : sp.of_j;
-                row.front().second += mine.transpose() * sp.stiffness * mine;
-                row.emplace_back(static_cast<std::size_t>(second ? b_.i[bond] : b_.j[bond]), -mine.transpose() * sp.stiffness * other);
-            }
-            std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-            for (std::size_t r = 0; r < 6; ++r) {
-                const Index at_row = number[6 * sphere + r];
-                for (std::size_t p = 0; p < row.size() && at_row >= 0; ++p) {
-                    for (std::size_t c = 0; c < 6; ++c) {
-                        const Index at_column = number[6 * row[p].first + c];
-                        if (at_column >= 0) {
-                            double value = row[p].second(static_cast<Index>(r), static_cast<Index>(c));
-                            value += at_row == at_column ? anchor[static_cast<Index>(6 * sphere + r)] : 0.0;
-                            k.insert(at_row, at_column) = value;
-                        }
-                    }
-                }
-            }
+    };
+    for (std::size_t k = 0; k < network.spheres(); ++k) {
+        BondNetwork::Mat6 own = network.diagonal(k);
+        own.diagonal() += added.segment<6>(6 * static_cast<Index>(k));
+        put(k, k, own);
+        for (const auto* s = network.begin(k); s != network.end(k); ++s) {
+            put(k, s->other, BondNetwork::coupling(*s));
         }
-        k.makeCompressed();
-        return k;
     }
+    Matrix matrix(unknowns, unknowns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
 
-  private:
-    static Index at(std::int32_t sphere) { return 6 * static_cast<Index>(sphere); }
-
-    const Bonds& b_;
-    std::size_t n_;
-    std::vector<Spring> springs_;
-    std::array<bool, 6> moving_{true, true, true, true, true, true};
-};
-
-Vec solve_directly(const RowMatrix& k, const Vec& load) {
+Vec solve_directly(const BondNetwork& network, const Vec& free, const Vec& added, const Vec& load) {
+    std::vector<int> number;
+    const Matrix lower = assemble(network, free, added, number);
+    Vec right(lower.rows());
+    for (std::size_t k = 0; k < number.size(); ++k) {
+        if (number[k] >= 0) {
+            right[number[k]] = load[static_cast<Index>(k)];
+        }
+    }
     // Unit diagonal first: translations and rotations have different units, and a pivot must tell a mechanism in either.
-    const Vec scale = k.diagonal().cwiseSqrt().cwiseInverse();
-    const ColMatrix scaled = scale.asDiagonal() * ColMatrix(k) * scale.asDiagonal();
-    const Eigen::SimplicialLDLT<ColMatrix, Eigen::Lower> factors{scaled};
+    const Vec scale = lower.diagonal().cwiseSqrt().cwiseInverse();
+    const Matrix scaled = scale.asDiagonal() * lower * scale.asDiagonal();
+    const Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factors{scaled};
     if (factors.info() != Eigen::Success || factors.vectorD().minCoeff() <= 1e-12) {
         throw NotSolvable("the network is a mechanism, or is not held against rigid motion");
     }
-    Vec x = scale.cwiseProduct(factors.solve(scale.cwiseProduct(load)));
-    x += scale.cwiseProduct(factors.solve(scale.cwiseProduct(load - k * x)));
-    return x;
-}
-
-Vec solve_iteratively(const RowMatrix& k, const Vec& load, const ElasticOptions& options, int& iterations) {
-    Eigen::ConjugateGradient<RowMatrix, Eigen::Lower | Eigen::Upper> solver;
-    solver.setTolerance(options.tolerance);
-    solver.setMaxIterations(options.most_iterations);
-    solver.compute(k);
-    const Vec x = solver.solve(load);
-    iterations = static_cast<int>(solver.iterations());
-    if (solver.info() != Eigen::Success || !x.allFinite()) {
-        throw NotSolvable("conjugate gradients did not converge in " + std::to_string(iterations) +
-                          " iterations; the network may be a mechanism");
+    Vec x = scale.cwiseProduct(factors.solve(scale.cwiseProduct(right)));
+    const Vec left = right - lower.selfadjointView<Eigen::Lower>() * x;
+    x += scale.cwiseProduct(factors.solve(scale.cwiseProduct(left)));
+    Vec q = Vec::Zero(free.size());
+    for (std::size_t k = 0; k < number.size(); ++k) {
+        if (number[k] >= 0) {
+            q[static_cast<Index>(k)] = x[number[k]];
+        }
     }
-    return x;
+    return q;
 }
 
-VectorField part(const Vec& q, Index from) {
+// Column sums of a .* b, in an order that does not depend on threads.
+template <int W> Eigen::Array<double, 1, W> dots(const BondNetwork& network, const NetworkField<W>& a, const NetworkField<W>& b) {
+    constexpr Index part = 2048;
+    const Index parts = (a.rows() + part - 1) / part;
+    std::vector<Eigen::Array<double, 1, W>> sums(static_cast<std::size_t>(parts));
+    network.team().run(static_cast<std::size_t>(parts), [&](std::size_t p) {
+        const Index from = static_cast<Index>(p) * part;
+        const Index rows = std::min(part, a.rows() - from);
+        sums[p] = (a.middleRows(from, rows).array() * b.middleRows(from, rows).array()).colwise().sum();
+    });
+    Eigen::Array<double, 1, W> sum = Eigen::Array<double, 1, W>::Zero();
+    for (const auto& s : sums) {
+        sum += s;
+    }
+    return sum;
+}
+
+// Conjugate gradients, each column its own. q: start and result; only free components change.
+template <int W>
+int solve_iteratively(const BondNetwork& network, const Vec& free, const Vec& added, const NetworkField<W>& load, NetworkField<W>& q,
+                      const ElasticOptions& options) {
+    const TwoLevel inverse(network, free, added);
+    using Row = Eigen::Array<double, 1, W>;
+    NetworkField<W> theta;
+    NetworkField<W> kp;
+    const auto stiff = [&](const NetworkField<W>& x) {
+        network.apply<W>(x, kp, theta);
+        kp = (free.asDiagonal() * (kp + added.asDiagonal() * x)).eval();
+    };
+    stiff(q);
+    NetworkField<W> r = free.asDiagonal() * load;
+    const Row target = options.tolerance * options.tolerance * dots<W>(network, r, r);
+    r -= kp;
+    NetworkField<W> z;
+    inverse.apply<W>(r, z);
+    NetworkField<W> p = z;
+    Row rz = dots<W>(network, r, z);
+    int iteration = 0;
+    for (; iteration < options.most_iterations && (dots<W>(network, r, r) > target).any(); ++iteration) {
+        stiff(p);
+        const Row pk = dots<W>(network, p, kp);
+        const Row step = (pk > 0.0).select(rz / pk, Row::Zero()); // a column that is done stands still
+        q += p * step.matrix().asDiagonal();
+        r -= kp * step.matrix().asDiagonal();
+        inverse.apply<W>(r, z);
+        const Row next = dots<W>(network, r, z);
+        const Row ratio = (rz > 0.0).select(next / rz, Row::Zero());
+        rz = next;
+        p = (z + p * ratio.matrix().asDiagonal()).eval();
+    }
+    if (iteration == options.most_iterations || !q.allFinite()) {
+        throw NotSolvable("conjugate gradients did not converge in " + std::to_string(iteration) +
+                          " iterations; the network may be a mechanism, or is not held against rigid motion");
+    }
+    return std::max(iteration, 1);
+}
+
+VectorField column(const Vec& q, Index from) {
     VectorField f;
     for (Index k = from; k < q.size(); k += 6) {
         f.push_back(q.segment<3>(k));
@@ -172,59 +180,107 @@ VectorField part(const Vec& q, Index from) {
     return f;
 }
 
+// Everything that follows from the motions.
+ElasticSolution evaluate(const BondNetwork& network, const Bonds& bonds, const NetworkField<1>& q) {
+    ElasticSolution out;
+    NetworkField<1> f;
+    NetworkField<1> theta;
+    network.apply<1>(q, f, theta);
+    const Vec push = bearing_loads(network);
+    out.energy = 0.5 * q.dot(f) - q.dot(push);
+    for (const auto& bearing : network.bearings()) {
+        out.energy += 0.5 * bearing.motion.dot(bearing.stiffness * bearing.motion);
+    }
+    const Vec held = f - push;
+    out.displacement = column(q, 0);
+    out.rotation = column(q, 3);
+    out.force = column(held, 0);
+    out.moment = column(held, 3);
+    out.bond.resize(bonds.size());
+    for (std::size_t k = 0; k < network.spheres(); ++k) {
+        const auto mine = q.segment<6>(6 * static_cast<Index>(k));
+        for (const auto* s = network.begin(k); s != network.end(k); ++s) {
+            if (bonds.i[s->bond] != static_cast<std::int32_t>(k)) {
+                continue;
+            }
+            const auto other = q.segment<6>(6 * static_cast<Index>(s->other));
+            const Vec3 turned = s->arm * mine.tail<3>() + s->other_arm * other.tail<3>();
+            const Vec3 stretch = other.head<3>() - mine.head<3>() + s->n.cross(turned);
+            Vec3 force = s->k_t * stretch + (s->k_n - s->k_t) * s->n * s->n.dot(stretch);
+            if (!network.dilatation().empty()) {
+                force += s->n * (network.dilatation()[k] * s->g * theta[static_cast<Index>(k)] +
+                                 network.dilatation()[s->other] * s->other_g * theta[static_cast<Index>(s->other)]);
+            }
+            out.bond.set(s->bond, force);
+        }
+    }
+    return out;
+}
+
 } // namespace
 
 ElasticSolution solve_elastic(const Spheres& spheres, const Bonds& bonds, const std::vector<Support>& supports,
-                              const ElasticOptions& options) {
-    const Network network(spheres, bonds);
-    const auto n = static_cast<Index>(6 * spheres.size());
-    Vec q = Vec::Zero(n);
-    std::vector<char> held(static_cast<std::size_t>(n), 0);
-    for (const auto& support : supports) {
-        if (support.sphere >= spheres.size() || support.component < 0 || support.component > 5 || !network.moves(support.component)) {
-            throw std::invalid_argument("a support of a sphere or component that is not there");
-        }
-        const std::size_t k = 6 * support.sphere + static_cast<std::size_t>(support.component);
-        held[k] = 1;
-        q[static_cast<Index>(k)] = support.value;
+                              const ElasticOptions& options, const std::vector<Bearing>& bearings, const ElasticSolution* start) {
+    const BondNetwork network(spheres, bonds, bearings, omp_get_max_threads());
+    const Freedom f = freedom(network, supports, spheres);
+    NetworkField<1> theta;
+    NetworkField<1> load;
+    network.apply<1>(f.prescribed, load, theta);
+    load = f.free.cwiseProduct(bearing_loads(network) - load);
+    Vec added(f.free.size());
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        added.segment<6>(6 * static_cast<Index>(k)) = options.anchor * network.diagonal(k).diagonal();
     }
-    // Components that no bond holds stay where they are. A shear stiffness of zero leaves round-off of the normal one.
-    const Vec diagonal = network.diagonal();
-    std::vector<Index> number(static_cast<std::size_t>(n), -1);
-    Index unknowns = 0;
-    for (Index k = 0; k < n; ++k) {
-        const int component = static_cast<int>(k % 6);
-        const Index sphere = k - component;
-        const double r = spheres.radius[static_cast<std::size_t>(sphere / 6)];
-        const double stiffest = diagonal.segment<3>(sphere).maxCoeff() * (component < 3 ? 1.0 : r * r);
-        if (!held[static_cast<std::size_t>(k)] && network.moves(component) && diagonal[k] > 1e-14 * stiffest) {
-            number[static_cast<std::size_t>(k)] = unknowns++;
-        }
-    }
-    ElasticSolution out;
-    Vec load(unknowns);
-    const Vec from_supports = network.forces(q, out.energy, out.bond);
-    for (Index k = 0; k < n; ++k) {
-        if (number[static_cast<std::size_t>(k)] >= 0) {
-            load[number[static_cast<std::size_t>(k)]] = -from_supports[k];
-        }
-    }
+    NetworkField<1> q = NetworkField<1>::Zero(f.free.size());
+    int iterations = 0;
+    const auto unknowns = static_cast<std::size_t>(f.free.sum());
     if (unknowns > 0 && load.squaredNorm() > 0.0) {
-        const RowMatrix k = network.assemble(number, unknowns, options.anchor * diagonal);
-        const std::size_t most = spheres.planar ? options.direct_in_plane : options.direct_in_space;
-        const Vec x =
-            static_cast<std::size_t>(unknowns) <= most ? solve_directly(k, load) : solve_iteratively(k, load, options, out.iterations);
-        for (std::size_t at = 0; at < number.size(); ++at) {
-            if (number[at] >= 0) {
-                q[static_cast<Index>(at)] = x[number[at]];
+        const std::size_t most = network.dilatation().empty() ? (spheres.planar ? options.direct_in_plane : options.direct_in_space) : 0;
+        if (unknowns <= most) {
+            q = solve_directly(network, f.free, added, load);
+        } else {
+            for (std::size_t k = 0; start != nullptr && k < spheres.size(); ++k) {
+                q.segment<3>(6 * static_cast<Index>(k)) = start->displacement.at(k);
+                q.segment<3>(6 * static_cast<Index>(k) + 3) = start->rotation.at(k);
             }
+            q = f.free.cwiseProduct(q);
+            iterations = solve_iteratively<1>(network, f.free, added, load, q, options);
         }
     }
-    const Vec f = network.forces(q, out.energy, out.bond);
-    out.displacement = part(q, 0);
-    out.rotation = part(q, 3);
-    out.force = part(f, 0);
-    out.moment = part(f, 3);
+    q += f.prescribed;
+    ElasticSolution out = evaluate(network, bonds, q);
+    out.iterations = iterations;
+    return out;
+}
+
+std::vector<ElasticSolution> solve_elastic(const Spheres& spheres, const Bonds& bonds, const std::vector<std::vector<Support>>& cases,
+                                           const ElasticOptions& options) {
+    constexpr int width = 6;
+    if (cases.empty() || cases.size() > width) {
+        throw std::invalid_argument("one to six cases");
+    }
+    const BondNetwork network(spheres, bonds, {}, omp_get_max_threads());
+    const Freedom first = freedom(network, cases.front(), spheres);
+    Vec added(first.free.size());
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        added.segment<6>(6 * static_cast<Index>(k)) = options.anchor * network.diagonal(k).diagonal();
+    }
+    NetworkField<width> prescribed = NetworkField<width>::Zero(first.free.size(), width);
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+        prescribed.col(static_cast<Index>(c)) = freedom(network, cases[c], spheres).prescribed;
+    }
+    NetworkField<width> theta;
+    NetworkField<width> load;
+    network.apply<width>(prescribed, load, theta);
+    load = (first.free.asDiagonal() * -load).eval();
+    NetworkField<width> q = NetworkField<width>::Zero(load.rows(), width);
+    const int iterations = load.squaredNorm() > 0.0 ? solve_iteratively<width>(network, first.free, added, load, q, options) : 0;
+    q += prescribed;
+    std::vector<ElasticSolution> out;
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+        out.push_back(evaluate(network, bonds, q.col(static_cast<Index>(c))));
+        out.back().iterations = iterations;
+    }
     return out;
 }
 

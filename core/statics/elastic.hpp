@@ -1,5 +1,5 @@
-// Linear elasticity of a bond network: spheres with translations and rotations, bonds as springs with lever arms. Bending and twisting
-// stiffness of bonds is not part of it.
+// Linear elasticity of a bond network: spheres with translations and rotations, bonds as springs with lever arms, with their resistance to
+// bending and twisting and their averaged part.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,18 @@ struct Support {
     double value = 0.0;
 };
 
+/// A spring between a sphere and something rigid: its force on the sphere is -stiffness (motion of the contact point - given motion).
+struct Bearing {
+    std::size_t sphere = 0;
+    Mat3 stiffness = Mat3::Zero(); ///< N/m
+    Vec3 arm = Vec3::Zero();       ///< from the centre to the contact point, m
+    Vec3 motion = Vec3::Zero();    ///< given motion of what it rests on, m
+};
+
 /// How the equations are solved.
 struct ElasticOptions {
     std::size_t direct_in_plane = 300000; ///< up to so many unknowns of a planar network by sparse Cholesky,
-    std::size_t direct_in_space = 5000;   ///< of a spatial one, where factors fill in far more; beyond by conjugate gradients
+    std::size_t direct_in_space = 1000;   ///< of a spatial one, where factors fill in far more; beyond by conjugate gradients
     double tolerance = 1e-10;             ///< residual over the right-hand side at which conjugate gradients stop
     int most_iterations = 20000;
     double anchor = 0.0; ///< a spring to the ground at every component, over its stiffness: keeps mechanisms (k_t = 0) solvable
@@ -34,7 +42,7 @@ struct ElasticSolution {
     VectorField force;        ///< that holds the sphere where it is prescribed, N; round-off elsewhere
     VectorField moment;       ///< N m
     VectorField bond;         ///< force of each bond on its sphere i, N
-    double energy = 0.0;      ///< in the bonds, J
+    double energy = 0.0;      ///< in the bonds and bearings, J
     int iterations = 0;       ///< 0: solved directly
 };
 
@@ -43,11 +51,17 @@ struct NotSolvable : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Displacements of the network under prescribed components, free of load everywhere else. Each bond has k_n along the line of centres and
-/// k_t across it at the contact point (5.34), as in the start of the dynamic calculation; discs move in their plane. Components that no
-/// bond holds (rattlers, rotations where k_t = 0) stay at rest. Same input, same bits, whatever the number of threads. Throws NotSolvable,
-/// and std::invalid_argument for a support of a sphere or component that is not there.
+/// Displacements of the network under prescribed components and bearings, free of load everywhere else. Each bond has k_n along the line of
+/// centres and k_t across it at the contact point (5.34), as in the start of the dynamic calculation; discs move in their plane.
+/// Components that no bond holds (rattlers, rotations where k_t = 0) stay at rest. start: a solution to begin from, of the same network
+/// with other stiffnesses. Same input, same bits, whatever the number of threads. Throws NotSolvable, and std::invalid_argument for a
+/// support of a sphere or component that is not there.
 ElasticSolution solve_elastic(const Spheres& spheres, const Bonds& bonds, const std::vector<Support>& supports,
-                              const ElasticOptions& options = {});
+                              const ElasticOptions& options = {}, const std::vector<Bearing>& bearings = {},
+                              const ElasticSolution* start = nullptr);
+
+/// The same for up to six cases at once that prescribe the same components, in the same order, to different values.
+std::vector<ElasticSolution> solve_elastic(const Spheres& spheres, const Bonds& bonds, const std::vector<std::vector<Support>>& cases,
+                                           const ElasticOptions& options = {});
 
 } // namespace proveta

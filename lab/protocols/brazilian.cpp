@@ -124,7 +124,7 @@ class Brazilian : public Protocol {
              "platen travel"},
             {"platen_imbalance", "Imbalance of the platens", imbalance(m, l, peak), "",
              "largest difference of the two forces over their mean, from 20 % of the peak to the peak"}};
-        for (auto&& more : {elastic(m, l, peak), cracks(m, l, peak), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
+        for (auto&& more : {elastic(m, l, peak), cracks(m, l, peak), cycle_results(m.curve, m.press.sense), energy_results(m)}) {
             out.insert(out.end(), more.begin(), more.end());
         }
         return out;

@@ -89,7 +89,7 @@ class DirectTension : public Protocol {
              "area under stress over platen travel, once less than a fifth of the peak is left; the piece's elastic energy that a snap "
              "turns into "
              "motion is in it, so it is an upper bound"}};
-        for (auto&& more : {softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
+        for (auto&& more : {softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m)}) {
             out.insert(out.end(), more.begin(), more.end());
         }
         return out;

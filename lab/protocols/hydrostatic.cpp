@@ -115,7 +115,7 @@ class Hydrostatic : public Protocol {
             {"volumetric_strain_at_end", "Volumetric strain at the end", l.volume.empty() ? std::nullopt : std::optional(l.volume.back()),
              "", "middle gauge and girth"},
             {"servo_error", "Servo, largest error", worst, "", "axial over lateral stress less 1, from a tenth of the pressure on"}};
-        for (auto&& more : {energy_results(m.energy)}) {
+        for (auto&& more : {energy_results(m)}) {
             out.insert(out.end(), more.begin(), more.end());
         }
         return out;

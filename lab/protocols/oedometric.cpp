@@ -135,7 +135,7 @@ class Oedometric : public Protocol {
             {"lateral_stress_at_end", "Lateral stress at the end",
              l.stress.empty() ? std::nullopt : std::optional(l.stress.back() - l.deviator.back()), "Pa",
              "pressure of the specimen on the ring"}};
-        for (auto&& more : {cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
+        for (auto&& more : {cycle_results(m.curve, m.press.sense), energy_results(m)}) {
             out.insert(out.end(), more.begin(), more.end());
         }
         return out;

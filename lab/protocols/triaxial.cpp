@@ -88,7 +88,7 @@ class Triaxial : public Protocol {
              "minus volumetric over axial strain increment by the middle gauges, from 90 % to 100 % of the largest deviator: positive when "
              "the "
              "specimen grows"}};
-        for (auto&& more : {elastic_results(l), softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
+        for (auto&& more : {elastic_results(l), softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m)}) {
             out.insert(out.end(), more.begin(), more.end());
         }
         return out;

@@ -75,7 +75,7 @@ class Ucs : public Protocol {
                                          strength ? std::optional(l.strain[peak]) : std::nullopt, "", "platen travel over height"},
                                         {"gauge_strain_at_peak", "Strain at peak, middle gauge",
                                          strength ? std::optional(l.gauge[peak]) : std::nullopt, "", "middle gauge length"}};
-        for (auto&& more : {elastic_results(l), softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m.energy)}) {
+        for (auto&& more : {elastic_results(l), softening_results(l), cycle_results(m.curve, m.press.sense), energy_results(m)}) {
             out.insert(out.end(), more.begin(), more.end());
         }
         return out;

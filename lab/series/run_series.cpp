@@ -172,7 +172,7 @@ std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specime
 
 } // namespace
 
-RunStatus run_series(const Plan& plan, const RunOptions& options, int threads) {
+RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study) {
     OutputFolder out(options.out);
     std::vector<std::unique_ptr<OutputFolder>> folders;
     for (const auto& member : plan.members) {
@@ -189,8 +189,19 @@ RunStatus run_series(const Plan& plan, const RunOptions& options, int threads) {
     write_manifest("running");
     auto members = run_members(plan, specimens, folders, options.command, static_cast<std::size_t>(std::max(threads, 1)), board);
 
-    const SeriesResults results = evaluate(std::move(members), interrupted());
-    const report::Record record = series_record(plan, results);
+    SeriesResults results = evaluate(std::move(members), interrupted());
+    SeriesExtra extra;
+    if (study) {
+        extra = study(results.members);
+        results.scalars.insert(results.scalars.begin(), extra.results.begin(), extra.results.end());
+    }
+    report::Record record = series_record(plan, results);
+    record.plots.insert(record.plots.begin(), extra.plots.begin(), extra.plots.end());
+    record.overview.insert(record.overview.begin(), extra.tables.begin(), extra.tables.end());
+    record.warnings.insert(record.warnings.begin(), extra.warnings.begin(), extra.warnings.end());
+    if (!extra.csv_name.empty()) {
+        report::write_file(out.file(extra.csv_name), report::to_csv(extra.tables.front()));
+    }
     for (const auto& group : results.groups) {
         if (group.mean) {
             std::filesystem::create_directories(out.path() / "mean_curves");

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "lab/elastic_press.hpp"
+#include "lab/elastic/press.hpp"
 #include "lab/verification/cases.hpp"
 #include "lab/verification/meshes.hpp"
 #include "specimens/laguerre.hpp"

@@ -31,6 +31,8 @@ Case polygon_areas();
 Case area_models();
 Case area_partition();
 Case elastic_study();
+Case elastic_calibration();
+Case elastic_calibration_small();
 Case elastic_laboratory();
 Case elastic_laboratory_small();
 

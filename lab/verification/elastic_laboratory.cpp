@@ -1,61 +1,19 @@
 // Every test on an unbreakable specimen against elasticity with the specimen's own E and nu.
 #include <cmath>
 
-#include "lab/derived.hpp"
-#include "lab/test_run.hpp"
 #include "lab/verification/cases.hpp"
+#include "lab/verification/elastic_run.hpp"
 
 namespace proveta::verification {
 
 namespace {
-
-// The readings of a test on an unbreakable specimen, as slopes over the mean platen stress of its second half.
-class ElasticTest {
-  public:
-    ElasticTest(const char* test, input::Json specimen, input::Json loading) {
-        const input::Json json = {
-            {"test", test},
-            {"specimen", std::move(specimen)},
-            {"material", {{"sigma_f", "1000 GPa"}, {"tau_f", "1000 GPa"}, {"lcs", {"1000 GPa", "2000 GPa", "3000 GPa"}}}},
-            {"loading", std::move(loading)},
-            {"output", {{"samples", 60}, {"fields", 0}}}};
-        const Deck deck = read_deck(json, test);
-        Bench bench = set_up(deck, make_specimen(deck.specimen));
-        data_ = run_protocol(deck, bench, {[](const TestData&, double) {}, [] {}, [] { return false; }});
-    }
-
-    // d(column) / d(axial stress)
-    [[nodiscard]] double of(const char* column) const {
-        const auto stress = data_.curve.values("axial_stress");
-        const auto line = fit(stress, data_.curve.values(column), stress.size() / 2, stress.size() - 1);
-        return line ? line->slope : std::nan("");
-    }
-    [[nodiscard]] double lateral_stress() const { return 0.5 * (of("inner_stress_xx") + of("inner_stress_yy")); }
-    [[nodiscard]] double lateral_strain() const { return 0.5 * (of("inner_strain_xx") + of("inner_strain_yy")); }
-
-    // Worst of |a / b - 1| from a tenth of b's last value on.
-    [[nodiscard]] double worst_ratio(const char* a, const char* b) const {
-        const auto x = data_.curve.values(a);
-        const auto y = data_.curve.values(b);
-        double worst = 0.0;
-        for (std::size_t k = 0; k < x.size(); ++k) {
-            if (y[k] > 0.1 * y.back()) {
-                worst = std::max(worst, std::fabs(x[k] / y[k] - 1.0));
-            }
-        }
-        return worst;
-    }
-
-  private:
-    TestData data_;
-};
 
 struct Elasticity {
     double young, poisson;
 };
 
 // By the inner region alone: between lubricated platens the stress there is uniaxial.
-Elasticity measured(const ElasticTest& t) {
+Elasticity measured(const ElasticRun& t) {
     return {t.of("inner_stress_zz") / t.of("inner_strain_zz"), -t.lateral_strain() / t.of("inner_strain_zz")};
 }
 
@@ -77,7 +35,7 @@ Case laboratory(const char* name, const char* about, bool full) {
                 out.checks.push_back({what, 0.0, found, 0.0, Compare::reported, unit});
             };
 
-            const ElasticTest ucs("ucs", cylinder, free);
+            const ElasticRun ucs("ucs", cylinder, free);
             const auto [young, poisson] = measured(ucs);
             report("cylinder: E, inner gauges", young, "Pa");
             report("cylinder: nu, inner gauges", poisson);
@@ -85,7 +43,7 @@ Case laboratory(const char* name, const char* about, bool full) {
             report("ucs: stress in the inner region over the platens'", ucs.of("inner_stress_zz"));
             report("ucs: modulus by platen travel over E", 1.0 / ucs.of("axial_strain") / young);
 
-            const ElasticTest oedometer("oedometric", cylinder, {{"stop", {{"axial_strain", 0.0004}}}});
+            const ElasticRun oedometer("oedometric", cylinder, {{"stop", {{"axial_strain", 0.0004}}}});
             const double constrained = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
             check("oedometric: constrained modulus", constrained, oedometer.of("inner_stress_zz") / oedometer.of("inner_strain_zz"),
                   allowed, "Pa");
@@ -97,7 +55,7 @@ Case laboratory(const char* name, const char* about, bool full) {
             report("oedometric: modulus by platen travel over E(1 - nu)/((1 + nu)(1 - 2 nu))",
                    1.0 / oedometer.of("axial_strain") / constrained);
 
-            const ElasticTest hydrostatic("hydrostatic", cylinder, {{"pressure", "10 MPa"}, {"ramp", "8 ms"}});
+            const ElasticRun hydrostatic("hydrostatic", cylinder, {{"pressure", "10 MPa"}, {"ramp", "8 ms"}});
             const double trace = hydrostatic.of("inner_strain_zz") + 2.0 * hydrostatic.lateral_strain();
             const double mean = (hydrostatic.of("inner_stress_zz") + 2.0 * hydrostatic.lateral_stress()) / 3.0;
             check("hydrostatic: bulk modulus", young / (3.0 * (1.0 - 2.0 * poisson)), mean / trace, pressed_side, "Pa");
@@ -108,16 +66,16 @@ Case laboratory(const char* name, const char* about, bool full) {
             out.checks.push_back({"hydrostatic: servo, largest error", 0.01, hydrostatic.worst_ratio("axial_stress", "lateral_stress"), 0.0,
                                   Compare::at_most, ""});
 
-            const ElasticTest triaxial("triaxial", cylinder,
-                                       {{"confining_pressure", "4.5 MPa"},
-                                        {"platen_friction", "lubricated"},
-                                        {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
+            const ElasticRun triaxial("triaxial", cylinder,
+                                      {{"confining_pressure", "4.5 MPa"},
+                                       {"platen_friction", "lubricated"},
+                                       {"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
             check("triaxial: E, inner gauges", young, triaxial.of("inner_stress_zz") / triaxial.of("inner_strain_zz"), 0.02, "Pa");
             check("triaxial: stress in the middle, whole section, over the platens'", 1.0, triaxial.of("middle_stress"), 0.02);
 
-            const ElasticTest pressed("ucs", disc, free);
+            const ElasticRun pressed("ucs", disc, free);
             const Elasticity own = measured(pressed);
-            const ElasticTest brazilian("brazilian", disc, {{"stop", {{"axial_strain", 0.0003}, {"post_peak_drop", 1}}}});
+            const ElasticRun brazilian("brazilian", disc, {{"stop", {{"axial_strain", 0.0003}, {"post_peak_drop", 1}}}});
             // Means over the circle of a quarter of the diameter: 1 - (a/R)^2 and 3 - (a/R)^2 times 2P/(pi D t), Hertz's disc being
             // harmonic.
             const double tension = 15.0 / 16.0;
@@ -131,7 +89,7 @@ Case laboratory(const char* name, const char* about, bool full) {
             report("disc: E, inner gauges", own.young, "Pa");
             report("disc: nu, inner gauges", own.poisson);
 
-            const ElasticTest tension_test("direct-tension", cylinder, {{"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
+            const ElasticRun tension_test("direct-tension", cylinder, {{"stop", {{"axial_strain", 0.0004}, {"post_peak_drop", 1}}}});
             check("direct tension: E, inner gauges", young, tension_test.of("inner_stress_zz") / tension_test.of("inner_strain_zz"), 0.02,
                   "Pa");
             out.notes.emplace_back(

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "lab/elastic_press.hpp"
+#include "lab/elastic/press.hpp"
 #include "lab/verification/cases.hpp"
 #include "lab/verification/meshes.hpp"
 

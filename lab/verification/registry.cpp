@@ -26,6 +26,8 @@ const std::vector<Case>& cases() {
         area_models(),
         area_partition(),
         elastic_study(),
+        elastic_calibration(),
+        elastic_calibration_small(),
         elastic_laboratory(),
         elastic_laboratory_small(),
         mesh_convergence(),

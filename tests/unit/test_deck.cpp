@@ -113,12 +113,15 @@ TEST_CASE("the presets beside the default carry the law they are named after") {
     CHECK(thesis.bond.kind == LawKind::dempack);
     CHECK(thesis.bond.sigma_f == 5e6);
     CHECK(thesis.local_damping == 0.9);
-    const Material tough =
-        material(R"({"test": "ucs", "material": {"fracture_energy_tension": 100, "sigma_f": "4 MPa", "strength_factor": 1}})");
+    const Material tough = material(
+        R"({"test": "ucs", "material": {"fracture_energy_tension": 100, "fracture_energy_shear": 0, "sigma_f": "4 MPa", "strength_factor": 1}})");
     CHECK(bond_law(tough).opening_f == Approx(2.0 * 100 / 4e6));
     CHECK(bond_law(tough).slip_f == 0.0);
+    const Material usual = material(R"({"test": "ucs"})");
+    CHECK(bond_law(usual).opening_f > 0.0);
+    CHECK(bond_law(usual).slip_f > 0.0);
     const Material averaged =
-        material(R"({"test": "ucs", "material": {"criterion": "rankine", "sigma_f": "4 MPa", "strength_factor": 1}})");
+        material(R"({"test": "ucs", "material": {"card": "thesis", "criterion": "rankine", "sigma_f": "4 MPa", "strength_factor": 1}})");
     CHECK(bond_law(averaged).averaged_sigma_f == 4e6);
     CHECK(std::isinf(bond_law(averaged).sigma_f));
 }
@@ -131,4 +134,7 @@ TEST_CASE("laws that do not go together are refused, each with its place") {
               "/material/criterion"));
     CHECK(has(problems_of(R"({"test": "ucs", "material": {"criterion": "mohr-coulomb"}})"), "/material/criterion"));
     CHECK(has(problems_of(R"({"test": "ucs", "material": {"plastic_modulus_ratio": 2}})"), "/material/plastic_modulus_ratio"));
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"normal_factor": 1.4}})"), "/material/normal_factor"));
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"poisson_ratio": 0.495}})"), "/material/poisson_ratio"));
+    CHECK(problems_of(R"({"test": "ucs", "material": {"elasticity": "as-given", "averaged_factor": 1, "poisson_ratio": 0.495}})").empty());
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/motion/stable_step.hpp"
+#include "core/statics/bond_network.hpp"
 #include "tests/support.hpp"
 
 using namespace proveta;

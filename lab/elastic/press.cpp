@@ -1,4 +1,4 @@
-#include "lab/elastic_press.hpp"
+#include "lab/elastic/press.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -1,0 +1,70 @@
+// proveta study rate|step|size
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "lab/cli/commands.hpp"
+#include "lab/progress.hpp"
+#include "lab/study/study.hpp"
+
+namespace proveta {
+
+namespace {
+
+struct Arguments {
+    StudyRequest request;
+    std::string out;
+    int threads = 0;
+    bool quiet = false;
+};
+
+int carry_out_study(const Arguments& a, const char* name, const std::string& typed) {
+    if (a.threads > 0) {
+        omp_set_num_threads(a.threads);
+    }
+    const Study study = plan_study(a.request);
+    const std::string stem = std::filesystem::path(a.request.deck).stem().string();
+    const RunOptions options{a.out.empty() ? fmt::format("results/{}-{}-study", stem, name) : a.out, typed, a.quiet};
+    catch_interrupts();
+    switch (run_series(study.plan, options, omp_get_max_threads(),
+                       [&](const std::vector<MemberResult>& members) { return evaluate_study(study, members); })) {
+    case RunStatus::complete: return 0;
+    case RunStatus::interrupted: return exit_interrupted;
+    case RunStatus::failed: break;
+    }
+    return exit_calculation;
+}
+
+} // namespace
+
+void add_study(CLI::App& app, const std::string& typed, Command& chosen) {
+    auto* group =
+        app.add_subcommand("study", "one test at several loading rates, time steps or numbers of spheres, and where its results go");
+    group->require_subcommand(1);
+    const auto add = [&](StudyKind kind, const char* name, const char* about, const char* values, int seeds) {
+        auto a = std::make_shared<Arguments>();
+        a->request.kind = kind;
+        a->request.seeds = seeds;
+        auto* command = group->add_subcommand(name, about);
+        command->add_option("deck", a->request.deck, "deck of one test (JSON)")->required();
+        command->add_option("--values", a->request.values, values)->delimiter(',');
+        command->add_option("--seeds", a->request.seeds, "specimens for each value")->check(CLI::Range(1, 100))->capture_default_str();
+        command->add_option("--set", a->request.settings, "change a value of the deck: a.b=v (may be given several times)")
+            ->allow_extra_args(false);
+        command->add_option("--out", a->out, "result folder (default: results/NAME-KIND-study)");
+        command->add_option("--threads", a->threads, "number of threads, of all tests together; results do not depend on it")
+            ->check(CLI::Range(1, 1024));
+        command->add_flag("--quiet", a->quiet, "no progress, no log but warnings and errors");
+        command->callback([a, name, typed, &chosen] { chosen = [a, name, typed] { return carry_out_study(*a, name, typed); }; });
+    };
+    add(StudyKind::rate, "rate", "how results depend on the loading rate, and their limit at rate 0",
+        "closing speeds in m/s, such as 0.2,0.1,0.05 (default: 4, 2, 1 and 1/2 of the deck's, or about a sixth of the height a second)", 1);
+    add(StudyKind::step, "step", "how results depend on the time step, and their limit at step 0",
+        "steps over the stable one (default: 0.9,0.6,0.3,0.15)", 1);
+    add(StudyKind::size, "size", "how results depend on the number of spheres, and their limit for ever finer ones",
+        "numbers of spheres (default: 1/10, 1/4, 1/2 and all of the deck's)", 3);
+}
+
+} // namespace proveta
