@@ -17,7 +17,8 @@ struct Wish {
 
 // radius_deviation: relative, of the grading.
 input::Json cylinder(int spheres, int seed, double radius_deviation) {
-    return {{"spheres", spheres}, {"seed", seed}, {"radius_deviation", radius_deviation}};
+    return {
+        {"spheres", spheres}, {"seed", seed}, {"radius_deviation", radius_deviation}, {"smallest_radius", 0.25}, {"largest_radius", 2.0}};
 }
 
 std::vector<Wish> wishes(bool full) {

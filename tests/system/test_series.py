@@ -5,7 +5,7 @@ import shutil
 import signal
 import time
 
-from case import Case, main
+from case import FILES, Case, main
 
 
 class Series(Case):
@@ -83,7 +83,7 @@ class Series(Case):
             (lambda n: self.deck(name=n, specimen={"seed": []}), "/specimen/seed"),
             (lambda n: self.deck(name=n, loading={"confining_pressure": ["1 MPa", "2 MPa"]}), "/loading/confining_pressure"),
             (lambda n: self.deck(name=n, specimen={"seed": [1, 2], "spheres": 1}), "/specimen/spheres"),
-            (lambda n: self.deck(name=n, specimen={"seed": [1, 2], "spheres": 300}, numerics={"time_step": "1 s"}), "stable step"),
+            (lambda n: self.deck(name=n, specimen={"diameter": "50 mm", "height": "100 mm", "seed": [1, 2], "spheres": 300}, numerics={"time_step": "1 s"}), "stable step"),
         ]):
             with self.subTest(says):
                 file = deck(f"bad{k}.json")
