@@ -102,9 +102,10 @@ Case step_convergence() {
                     input::Json json = base;
                     json["numerics"]["time_step"] = share / 0.9 * whole.step;
                     const Test t = press(json, fmt::format("{} of it", share), colours[k++]);
-                    // Below the stable step nothing but round-off's statistics is left: 1 to 2 % in the peak, none in the modulus.
+                    // Below the stable step nothing but round-off's statistics is left: 1 to 2 % in the peak, 0.2 % in the
+                    // modulus, because the first bonds soften below a third of the peak.
                     out.checks.push_back(
-                        {fmt::format("modulus at {} of the stable step", share), whole.modulus, t.modulus, 1e-3, Compare::relative, "Pa"});
+                        {fmt::format("modulus at {} of the stable step", share), whole.modulus, t.modulus, 3e-3, Compare::relative, "Pa"});
                     out.checks.push_back(
                         {fmt::format("peak at {} of the stable step", share), whole.peak, t.peak, 0.03, Compare::relative, "Pa"});
                     plot.curves.push_back(t.curve);
