@@ -1,9 +1,9 @@
 #include "lab/instruments.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/linear_field.hpp"
 #include "lab/fragments.hpp"
 
 namespace proveta {
@@ -26,25 +26,18 @@ double Instruments::girth_strain(const Model& m) const { return gauges_.girth_st
 
 // Least squares of u = a + G x over the spheres of the region.
 Mat3 Instruments::mean_strain(const Model& m) const {
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
-    for (const auto k : inside_) {
-        if (off_[k] != 0) {
-            continue;
-        }
-        const Vec3 p = m.spheres.start.at(k);
-        const Eigen::Vector4d row(1.0, p.x(), p.y(), p.z() - 0.5 * height_);
-        normal += row * row.transpose();
-        right += row * (m.spheres.position.at(k) - p).transpose();
-    }
-    if (m.spheres.planar) {
-        normal(2, 2) = 1.0; // all y are 0
-    }
     if (inside_.size() < 4) {
         return Mat3::Zero();
     }
-    const Mat3 slope = normal.ldlt().solve(right).bottomRows<3>();
-    return -0.5 * (slope + slope.transpose());
+    LinearField field;
+    for (const auto k : inside_) {
+        if (off_[k] == 0) {
+            const Vec3 p = m.spheres.start.at(k);
+            field.add(p - Vec3(0.0, 0.0, 0.5 * height_), m.spheres.position.at(k) - p);
+        }
+    }
+    const Mat3 slopes = field.slopes(m.spheres.planar);
+    return -0.5 * (slopes + slopes.transpose());
 }
 
 Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) const {

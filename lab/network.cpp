@@ -97,9 +97,7 @@ class Remembered {
 
 // Gives the materials that ask for it the factors with which the whole specimen, of this material alone, has the card's E and nu.
 void calibrate(const Deck& deck, const Specimen& specimen, const BondingRule& rule, Network& out) {
-    Spheres whole = out.spheres;
-    std::fill(whole.group.begin(), whole.group.end(), 0);
-    std::fill(whole.material.begin(), whole.material.end(), 0);
+    Spheres whole; // of one material and group, and their bonds: made for the first card that wants them
     std::vector<Pair> pairs;
     std::optional<LaguerreAreas> exact;
     for (std::size_t k = 0; k < out.materials.size(); ++k) {
@@ -121,6 +119,9 @@ void calibrate(const Deck& deck, const Specimen& specimen, const BondingRule& ru
             continue;
         }
         if (pairs.empty()) {
+            whole = out.spheres;
+            std::fill(whole.group.begin(), whole.group.end(), 0);
+            std::fill(whole.material.begin(), whole.material.end(), 0);
             double beta = 0.0;
             pairs = bonded_pairs(whole, rule, beta);
         }

@@ -1,15 +1,49 @@
 // Small specimens for tests.
 #pragma once
 
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <stdexcept>
 
 #include "core/model.hpp"
 #include "lab/bench.hpp"
+#include "lab/verification/brittle.hpp"
 #include "lab/verification/unbreakable.hpp"
 
 namespace proveta::testing {
 
 using verification::unbreakable;
+
+/// A folder of its own that goes away with its test, whatever else runs beside it.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        auto name = (std::filesystem::temp_directory_path() / "proveta_XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr) {
+            throw std::runtime_error("no temporary folder");
+        }
+        path_ = name;
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    /// The path of a file in it; with a text, the file is written.
+    [[nodiscard]] std::string file(const std::string& name, const std::string& text = "") const {
+        if (!text.empty()) {
+            std::ofstream(path_ / name) << text;
+        }
+        return (path_ / name).string();
+    }
+
+  private:
+    std::filesystem::path path_;
+};
 
 /// Two equal spheres of radius r that touch, along x, bonded with area pi r^2.
 inline Spheres two_spheres(double r, double density = 2500.0) {

@@ -16,32 +16,45 @@ using Vec = Eigen::VectorXd;
 using Index = Eigen::Index;
 using Matrix = Eigen::SparseMatrix<double>;
 
-// Which of the components may move, and where the others stay.
-struct Freedom {
-    Vec free;
-    Vec prescribed;
-};
-
-Freedom freedom(const BondNetwork& network, const std::vector<Support>& supports, const Spheres& spheres) {
-    const bool moving[6] = {true, !spheres.planar, true, !spheres.planar, true, !spheres.planar};
-    Freedom out{Vec::Zero(6 * static_cast<Index>(spheres.size())), Vec::Zero(6 * static_cast<Index>(spheres.size()))};
-    for (std::size_t k = 0; k < spheres.size(); ++k) {
-        // Components that nothing holds stay where they are. A shear stiffness of zero leaves round-off of the normal one.
-        const BondNetwork::Vec6 own = network.diagonal(k).diagonal();
-        for (int c = 0; c < 6; ++c) {
-            const double stiffest = own.head<3>().maxCoeff() * (c < 3 ? 1.0 : spheres.radius[k] * spheres.radius[k]);
-            out.free[6 * static_cast<Index>(k) + c] = moving[c] && own[c] > 1e-14 * stiffest ? 1.0 : 0.0;
-        }
+// What holds each component of motion by itself.
+Vec diagonals(const BondNetwork& network) {
+    Vec own(6 * static_cast<Index>(network.spheres()));
+    for (std::size_t k = 0; k < network.spheres(); ++k) {
+        own.segment<6>(6 * static_cast<Index>(k)) = network.diagonal(k).diagonal();
     }
+    return own;
+}
+
+// Where the supports hold the components they name; with `free`, these are taken out of it. In a plane only x, z and turns about y move.
+Vec prescribe(const std::vector<Support>& supports, const Spheres& spheres, Vec* free = nullptr) {
+    const bool moving[6] = {true, !spheres.planar, true, !spheres.planar, true, !spheres.planar};
+    Vec prescribed = Vec::Zero(6 * static_cast<Index>(spheres.size()));
     for (const auto& support : supports) {
         if (support.sphere >= spheres.size() || support.component < 0 || support.component > 5 || !moving[support.component]) {
             throw std::invalid_argument("a support of a sphere or component that is not there");
         }
         const auto at = 6 * static_cast<Index>(support.sphere) + support.component;
-        out.free[at] = 0.0;
-        out.prescribed[at] = support.value;
+        prescribed[at] = support.value;
+        if (free != nullptr) {
+            (*free)[at] = 0.0;
+        }
     }
-    return out;
+    return prescribed;
+}
+
+// Which components may move, 1 or 0. Those that nothing holds stay where they are: a shear stiffness of zero leaves round-off of the normal
+// one.
+Vec movable(const Vec& own, const Spheres& spheres) {
+    const bool moving[6] = {true, !spheres.planar, true, !spheres.planar, true, !spheres.planar};
+    Vec free(own.size());
+    for (Index k = 0; k < own.size(); k += 6) {
+        const double stiffest = own.segment<3>(k).maxCoeff();
+        const double r = spheres.radius[static_cast<std::size_t>(k / 6)];
+        for (int c = 0; c < 6; ++c) {
+            free[k + c] = moving[c] && own[k + c] > 1e-14 * stiffest * (c < 3 ? 1.0 : r * r) ? 1.0 : 0.0;
+        }
+    }
+    return free;
 }
 
 // Forces of what bearings rest on, where that moves.
@@ -222,32 +235,31 @@ ElasticSolution evaluate(const BondNetwork& network, const Bonds& bonds, const N
 ElasticSolution solve_elastic(const Spheres& spheres, const Bonds& bonds, const std::vector<Support>& supports,
                               const ElasticOptions& options, const std::vector<Bearing>& bearings, const ElasticSolution* start) {
     const BondNetwork network(spheres, bonds, bearings, omp_get_max_threads());
-    const Freedom f = freedom(network, supports, spheres);
+    const Vec own = diagonals(network);
+    const Vec added = options.anchor * own;
+    Vec free = movable(own, spheres);
+    const Vec prescribed = prescribe(supports, spheres, &free);
     NetworkField<1> theta;
     NetworkField<1> load;
-    network.apply<1>(f.prescribed, load, theta);
-    load = f.free.cwiseProduct(bearing_loads(network) - load);
-    Vec added(f.free.size());
-    for (std::size_t k = 0; k < spheres.size(); ++k) {
-        added.segment<6>(6 * static_cast<Index>(k)) = options.anchor * network.diagonal(k).diagonal();
-    }
-    NetworkField<1> q = NetworkField<1>::Zero(f.free.size());
+    network.apply<1>(prescribed, load, theta);
+    load = free.cwiseProduct(bearing_loads(network) - load);
+    NetworkField<1> q = NetworkField<1>::Zero(free.size());
     int iterations = 0;
-    const auto unknowns = static_cast<std::size_t>(f.free.sum());
+    const auto unknowns = static_cast<std::size_t>(free.sum());
     if (unknowns > 0 && load.squaredNorm() > 0.0) {
         const std::size_t most = network.dilatation().empty() ? (spheres.planar ? options.direct_in_plane : options.direct_in_space) : 0;
         if (unknowns <= most) {
-            q = solve_directly(network, f.free, added, load);
+            q = solve_directly(network, free, added, load);
         } else {
             for (std::size_t k = 0; start != nullptr && k < spheres.size(); ++k) {
                 q.segment<3>(6 * static_cast<Index>(k)) = start->displacement.at(k);
                 q.segment<3>(6 * static_cast<Index>(k) + 3) = start->rotation.at(k);
             }
-            q = f.free.cwiseProduct(q);
-            iterations = solve_iteratively<1>(network, f.free, added, load, q, options);
+            q = free.cwiseProduct(q);
+            iterations = solve_iteratively<1>(network, free, added, load, q, options);
         }
     }
-    q += f.prescribed;
+    q += prescribed;
     ElasticSolution out = evaluate(network, bonds, q);
     out.iterations = iterations;
     return out;
@@ -260,21 +272,19 @@ std::vector<ElasticSolution> solve_elastic(const Spheres& spheres, const Bonds& 
         throw std::invalid_argument("one to six cases");
     }
     const BondNetwork network(spheres, bonds, {}, omp_get_max_threads());
-    const Freedom first = freedom(network, cases.front(), spheres);
-    Vec added(first.free.size());
-    for (std::size_t k = 0; k < spheres.size(); ++k) {
-        added.segment<6>(6 * static_cast<Index>(k)) = options.anchor * network.diagonal(k).diagonal();
-    }
-    NetworkField<width> prescribed = NetworkField<width>::Zero(first.free.size(), width);
+    const Vec own = diagonals(network);
+    const Vec added = options.anchor * own;
+    Vec free = movable(own, spheres);
+    NetworkField<width> prescribed = NetworkField<width>::Zero(free.size(), width);
     for (std::size_t c = 0; c < cases.size(); ++c) {
-        prescribed.col(static_cast<Index>(c)) = freedom(network, cases[c], spheres).prescribed;
+        prescribed.col(static_cast<Index>(c)) = prescribe(cases[c], spheres, c == 0 ? &free : nullptr);
     }
     NetworkField<width> theta;
     NetworkField<width> load;
     network.apply<width>(prescribed, load, theta);
-    load = (first.free.asDiagonal() * -load).eval();
+    load = (free.asDiagonal() * -load).eval();
     NetworkField<width> q = NetworkField<width>::Zero(load.rows(), width);
-    const int iterations = load.squaredNorm() > 0.0 ? solve_iteratively<width>(network, first.free, added, load, q, options) : 0;
+    const int iterations = load.squaredNorm() > 0.0 ? solve_iteratively<width>(network, free, added, load, q, options) : 0;
     q += prescribed;
     std::vector<ElasticSolution> out;
     for (std::size_t c = 0; c < cases.size(); ++c) {

@@ -4,6 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
+
+#include "lab/run.hpp"
 
 namespace proveta {
 
@@ -19,6 +22,26 @@ void add_elastic(CLI::App& app, Command& chosen);
 void add_study(CLI::App& app, const std::string& typed, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
 void add_bench(CLI::App& app, Command& chosen);
+
+/// Options that all commands share which run tests.
+struct RunArguments {
+    std::vector<std::string> settings;
+    std::string out;
+    int threads = 0;
+    bool quiet = false;
+};
+
+/// Adds --set and --threads.
+void add_settings(CLI::App& command, RunArguments& a);
+
+/// Adds --out and --quiet. folder: what the help says of the default of --out.
+void add_output(CLI::App& command, RunArguments& a, const std::string& folder);
+
+/// Takes the number of threads over, if one is given.
+void use_threads(int threads);
+
+/// The exit code of a run that ended so.
+int exit_code(RunStatus status);
 
 /// Exit codes: the user's input, the calculation, an interrupt.
 constexpr int exit_input = 2;

@@ -1,6 +1,5 @@
 // proveta elastic
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <chrono>
 #include <memory>
@@ -9,7 +8,6 @@
 #include "lab/elastic/stiffness.hpp"
 #include "lab/elastic/uniaxial.hpp"
 #include "lab/network.hpp"
-#include "lab/progress.hpp"
 #include "reports/files.hpp"
 
 namespace proveta {
@@ -99,9 +97,7 @@ input::Json to_json(const Elasticity& e) {
 }
 
 int elastic(const Arguments& a) {
-    if (a.threads > 0) {
-        omp_set_num_threads(a.threads);
-    }
+    use_threads(a.threads);
     input::Json json{{"test", "ucs"}, {"specimen", {{"file", a.specimen}}}, {"material", {{"card", a.card}}}};
     apply_settings(json, a.settings);
     const Deck deck = read_deck(json, "elastic");

@@ -16,27 +16,19 @@ namespace proveta {
 
 namespace {
 
-struct DeckArguments {
+struct DeckArguments : RunArguments {
     std::vector<std::string> decks;
-    std::vector<std::string> settings;
-    std::string out;
-    int threads = 0;
     std::string seed;
-    bool quiet = false;
 };
 
 void add_deck_arguments(CLI::App& command, DeckArguments& a) {
     command.add_option("deck", a.decks, "deck (JSON), or the manifest.json of an earlier run; several decks make a series")->required();
-    command.add_option("--set", a.settings, "change a value of all decks: a.b=v (may be given several times)")->allow_extra_args(false);
-    command.add_option("--threads", a.threads, "number of threads, of all tests together; results do not depend on it")
-        ->check(CLI::Range(1, 1024));
+    add_settings(command, a);
     command.add_option("--seed", a.seed, "seed of the specimens' packing");
 }
 
 Plan prepare(const DeckArguments& a) {
-    if (a.threads > 0) {
-        omp_set_num_threads(a.threads);
-    }
+    use_threads(a.threads);
     auto settings = a.settings;
     if (!a.seed.empty()) {
         settings.push_back("specimen.seed=" + a.seed);
@@ -59,19 +51,13 @@ void add_run(CLI::App& app, const std::string& typed, Command& chosen) {
     auto a = std::make_shared<DeckArguments>();
     auto* command = app.add_subcommand("run", "run the test of a deck, or a series of tests, and write its result folder");
     add_deck_arguments(*command, *a);
-    command->add_option("--out", a->out, "result folder (default: results/NAME of the deck)");
-    command->add_flag("--quiet", a->quiet, "no progress, no log but warnings and errors");
+    add_output(*command, *a, "results/NAME of the deck");
     command->callback([a, typed, &chosen] {
         chosen = [a, typed] {
             const Plan plan = prepare(*a);
             const RunOptions options{a->out.empty() ? default_folder(*a, plan) : a->out, typed, a->quiet};
             catch_interrupts();
-            switch (plan.series ? run_series(plan, options, omp_get_max_threads()) : run_test(plan.members.front().deck, options)) {
-            case RunStatus::complete: return 0;
-            case RunStatus::interrupted: return exit_interrupted;
-            case RunStatus::failed: break;
-            }
-            return exit_calculation;
+            return exit_code(plan.series ? run_series(plan, options, omp_get_max_threads()) : run_test(plan.members.front().deck, options));
         };
     });
 }

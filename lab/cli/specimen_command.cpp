@@ -79,9 +79,7 @@ void add_make(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& cho
     command->add_option("--threads", a->threads, "number of threads; results do not depend on it")->check(CLI::Range(1, 1024));
     command->callback([a, &chosen] {
         chosen = [a] {
-            if (a->threads > 0) {
-                omp_set_num_threads(a->threads);
-            }
+            use_threads(a->threads);
             input::Json json = input::Json::object();
             if (!a->deck.empty()) {
                 const auto deck = input::load_json(a->deck);

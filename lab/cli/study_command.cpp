@@ -13,28 +13,20 @@ namespace proveta {
 
 namespace {
 
-struct Arguments {
+struct Arguments : RunArguments {
     StudyRequest request;
-    std::string out;
-    int threads = 0;
-    bool quiet = false;
 };
 
 int carry_out_study(const Arguments& a, const char* name, const std::string& typed) {
-    if (a.threads > 0) {
-        omp_set_num_threads(a.threads);
-    }
-    const Study study = plan_study(a.request);
+    use_threads(a.threads);
+    StudyRequest request = a.request;
+    request.settings = a.settings;
+    const Study study = plan_study(request);
     const std::string stem = std::filesystem::path(a.request.deck).stem().string();
     const RunOptions options{a.out.empty() ? fmt::format("results/{}-{}-study", stem, name) : a.out, typed, a.quiet};
     catch_interrupts();
-    switch (run_series(study.plan, options, omp_get_max_threads(),
-                       [&](const std::vector<MemberResult>& members) { return evaluate_study(study, members); })) {
-    case RunStatus::complete: return 0;
-    case RunStatus::interrupted: return exit_interrupted;
-    case RunStatus::failed: break;
-    }
-    return exit_calculation;
+    return exit_code(run_series(study.plan, options, omp_get_max_threads(),
+                                [&](const std::vector<MemberResult>& members) { return evaluate_study(study, members); }));
 }
 
 } // namespace
@@ -51,12 +43,8 @@ void add_study(CLI::App& app, const std::string& typed, Command& chosen) {
         command->add_option("deck", a->request.deck, "deck of one test (JSON)")->required();
         command->add_option("--values", a->request.values, values)->delimiter(',');
         command->add_option("--seeds", a->request.seeds, "specimens for each value")->check(CLI::Range(1, 100))->capture_default_str();
-        command->add_option("--set", a->request.settings, "change a value of the deck: a.b=v (may be given several times)")
-            ->allow_extra_args(false);
-        command->add_option("--out", a->out, "result folder (default: results/NAME-KIND-study)");
-        command->add_option("--threads", a->threads, "number of threads, of all tests together; results do not depend on it")
-            ->check(CLI::Range(1, 1024));
-        command->add_flag("--quiet", a->quiet, "no progress, no log but warnings and errors");
+        add_settings(*command, *a);
+        add_output(*command, *a, "results/NAME-KIND-study");
         command->callback([a, name, typed, &chosen] { chosen = [a, name, typed] { return carry_out_study(*a, name, typed); }; });
     };
     add(StudyKind::rate, "rate", "how results depend on the loading rate, and their limit at rate 0",

@@ -1,7 +1,8 @@
 #include "lab/elastic/press.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
+
+#include "core/geometry/linear_field.hpp"
 
 namespace proveta {
 
@@ -47,23 +48,17 @@ MacroElasticity press_elastically(const Shape& shape, const Spheres& spheres, co
     // Least squares: u = a + G x, over the spheres that their bonds can hold without shear; others may swing.
     const std::uint32_t enough = spheres.planar ? 3 : 4;
     const Shape::Region gauge = shape.inner(0.8, 0.6);
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+    LinearField field;
     for (std::size_t k = 0; k < spheres.size(); ++k) {
         const Vec3 p = spheres.position.at(k);
         const auto held_by = bonds.incidence.offset[k + 1] - bonds.incidence.offset[k];
         if (held_by >= enough && gauge.contains(p)) {
-            const Eigen::Vector4d row(1.0, p.x(), p.y(), p.z() - 0.5 * shape.height);
-            normal += row * row.transpose();
-            right += row * solution.displacement.at(k).transpose();
+            field.add(p - Vec3(0.0, 0.0, 0.5 * shape.height), solution.displacement.at(k));
         }
     }
-    if (spheres.planar) {
-        normal(2, 2) = 1.0; // all y are 0
-    }
-    const Eigen::Matrix<double, 4, 3> fit = normal.ldlt().solve(right);
-    const double axial = fit(3, 2);
-    const double lateral = spheres.planar ? fit(1, 0) : 0.5 * (fit(1, 0) + fit(2, 1));
+    const Mat3 slopes = field.slopes(spheres.planar);
+    const double axial = slopes(2, 2);
+    const double lateral = spheres.planar ? slopes(0, 0) : 0.5 * (slopes(0, 0) + slopes(1, 1));
     return {-force / shape.section() / axial, -lateral / axial, solution.iterations};
 }
 

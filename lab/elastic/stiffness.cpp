@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/geometry/linear_field.hpp"
+
 namespace proveta {
 
 namespace {
@@ -111,24 +113,15 @@ StiffnessTensor stiffness_tensor(const Shape& shape, const Spheres& s, const Bon
     if (inside.size() < 8) {
         throw std::invalid_argument("too few spheres inside");
     }
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-    for (const auto k : inside) {
-        Eigen::Vector4d row;
-        row << 1.0, s.position.at(k) - centre;
-        normal += row * row.transpose();
-    }
-    const auto factors = normal.ldlt();
     Mat6 strains;
     Mat6 stresses;
     for (Eigen::Index c = 0; c < 6; ++c) {
         const auto& solution = solutions[static_cast<std::size_t>(c)];
-        Eigen::Matrix<double, 4, 3> right = Eigen::Matrix<double, 4, 3>::Zero();
+        LinearField field;
         for (const auto k : inside) {
-            Eigen::Vector4d row;
-            row << 1.0, s.position.at(k) - centre;
-            right += row * solution.displacement.at(k).transpose();
+            field.add(s.position.at(k) - centre, solution.displacement.at(k));
         }
-        strains.col(c) = strain_of(factors.solve(right).bottomRows<3>());
+        strains.col(c) = strain_of(field.slopes(false));
         Mat3 stress = Mat3::Zero();
         for (std::size_t b = 0; b < bonds.size(); ++b) {
             const Vec3 at_i = s.position.at(static_cast<std::size_t>(bonds.i[b]));

@@ -47,8 +47,7 @@ UniaxialReading press_uniaxially(const Shape& shape, const Spheres& spheres, con
         }
     }
     // Spheres of a single bond can roll about it: a weak anchor keeps them.
-    ElasticOptions options{.tolerance = tolerance, .anchor = 1e-10};
-    options.direct_in_space = 0;
+    const ElasticOptions options{.direct_in_space = 0, .tolerance = tolerance, .anchor = 1e-10};
     UniaxialReading out;
     out.solution = solve_elastic(spheres, bonds, friction ? std::vector<Support>{} : hold_still(spheres), options, bearings, start);
 

@@ -3,6 +3,7 @@ import csv
 import json
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -34,6 +35,14 @@ class Case(unittest.TestCase):
         while not (self.folder / until).exists() and time.monotonic() < end and process.poll() is None:
             time.sleep(0.01)
         return process
+
+    def interrupt(self, process):
+        """Stops it as a user's Ctrl-C does, once it is well under way. Returns what it wrote to stdout."""
+        time.sleep(0.5)
+        process.send_signal(signal.SIGINT)
+        out, log = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, log)
+        return out
 
     def deck(self, content=None, name="deck.json", **changes):
         text = content if isinstance(content, str) else json.dumps({**SMALL, **changes} if content is None else content)

@@ -3,9 +3,7 @@
 import json
 import os
 import pathlib
-import signal
 import subprocess
-import time
 import unittest
 
 from case import FILES, SMALL, Case, main
@@ -112,10 +110,7 @@ class Running(Case):
     def test_an_interrupt_ends_cleanly_with_a_partial_result(self):
         deck = self.deck(loading={"rate": "0.001 m/s"})
         process = self.start("run", deck, "--out", "r", until="r/fields")
-        time.sleep(0.5)
-        process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130)
+        out = self.interrupt(process)
         summary = json.loads((self.folder / "r" / "summary.json").read_text())
         self.assertEqual(summary["status"], "interrupted")
         self.assertIn("partial", " ".join(summary["warnings"]))

@@ -2,7 +2,6 @@
 """The program from outside: several tests at once."""
 import json
 import shutil
-import signal
 import time
 
 from case import FILES, Case, main
@@ -120,10 +119,7 @@ class Series(Case):
     def test_an_interrupt_stops_all_members_and_keeps_what_they_have(self):
         deck = self.confined(rate="0.001 m/s")
         process = self.start("run", deck, "--out", "r", "--threads", "2", until="r/p_0MPa_seed_2/fields")
-        time.sleep(0.5)
-        process.send_signal(signal.SIGINT)
-        out, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130)
+        out = self.interrupt(process)
         summary = json.loads((self.folder / "r" / "summary.json").read_text())
         self.assertEqual(summary["status"], "interrupted")
         self.assertEqual([m["status"] for m in summary["members"]], ["interrupted", "interrupted", "not run", "not run"])

@@ -1,7 +1,6 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -13,33 +12,15 @@
 #include "lab/series/workers.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
+#include "tests/support.hpp"
 
 using namespace proveta;
 using input::Json;
+using proveta::testing::TemporaryFolder;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder for decks that goes with the test.
-class Decks {
-  public:
-    Decks() : folder_(fs::temp_directory_path() / fs::path("proveta_series_" + std::to_string(std::rand()))) {
-        fs::create_directories(folder_);
-    }
-    ~Decks() { fs::remove_all(folder_); }
-    Decks(const Decks&) = delete;
-    Decks& operator=(const Decks&) = delete;
-
-    std::string add(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name) << text;
-        return (folder_ / name).string();
-    }
-    [[nodiscard]] const fs::path& path() const { return folder_; }
-
-  private:
-    fs::path folder_;
-};
 
 std::vector<std::string> names_of(const Plan& plan) {
     std::vector<std::string> out;
@@ -95,9 +76,9 @@ TEST_CASE("a deck with lists stands for their product, the pressures in the oute
 }
 
 TEST_CASE("lists that make no series are refused at the place of the entry") {
-    const Decks decks;
+    const TemporaryFolder decks;
     const auto path_of = [&](const std::string& text) {
-        const auto problems = problems_of({decks.add("d.json", text)});
+        const auto problems = problems_of({decks.file("d.json", text)});
         REQUIRE(problems.size() == 1);
         return problems.front().path;
     };
@@ -114,9 +95,9 @@ TEST_CASE("lists that make no series are refused at the place of the entry") {
 }
 
 TEST_CASE("members are named after their lists, and after their decks among several") {
-    const Decks decks;
-    const auto ucs = decks.add("ucs.json", R"({"test": "ucs"})");
-    const auto confined = decks.add("confined.json", R"({"test": "triaxial", "loading": {"confining_pressure": ["1 MPa", "2.25 MPa"]}})");
+    const TemporaryFolder decks;
+    const auto ucs = decks.file("ucs.json", R"({"test": "ucs"})");
+    const auto confined = decks.file("confined.json", R"({"test": "triaxial", "loading": {"confining_pressure": ["1 MPa", "2.25 MPa"]}})");
     CHECK_FALSE(read_plan({ucs}, {}).series);
     CHECK(names_of(read_plan({confined}, {})) == std::vector<std::string>{"p_1MPa", "p_2.25MPa"});
     CHECK(names_of(read_plan({ucs, confined}, {})) == std::vector<std::string>{"ucs", "confined_p_1MPa", "confined_p_2.25MPa"});
@@ -131,17 +112,17 @@ TEST_CASE("members are named after their lists, and after their decks among seve
 }
 
 TEST_CASE("the manifest of a series is the series") {
-    const Decks decks;
-    const Plan plan = read_plan({decks.add("d.json", R"({"test": "ucs", "specimen": {"seed": [3, 4]}})")}, {});
+    const TemporaryFolder decks;
+    const Plan plan = read_plan({decks.file("d.json", R"({"test": "ucs", "specimen": {"seed": [3, 4]}})")}, {});
     const Json manifest = series_manifest(plan, {"aa", "bb"}, "proveta run", "complete", "now", "f");
-    const Plan again = read_plan({decks.add("manifest.json", manifest.dump())}, {});
+    const Plan again = read_plan({decks.file("manifest.json", manifest.dump())}, {});
     CHECK(again.series);
     CHECK(names_of(again) == names_of(plan));
     CHECK(again.members[1].deck.expected_specimen == "bb");
     CHECK(resolved(again.members[1].deck) == resolved(plan.members[1].deck));
     Json evil = manifest;
     evil["members"][0]["name"] = "../elsewhere";
-    CHECK(problems_of({decks.add("evil.json", evil.dump())}).at(0).path == "/members/0/name");
+    CHECK(problems_of({decks.file("evil.json", evil.dump())}).at(0).path == "/members/0/name");
 }
 
 TEST_CASE("threads and memory say how many members run at once") {
@@ -172,10 +153,10 @@ TEST_CASE("a member's name without its seed") {
 }
 
 TEST_CASE("a series finds its envelope, its ratios and its groups") {
-    const Decks decks;
+    const TemporaryFolder decks;
     const auto confined =
-        decks.add("t.json", R"({"test": "triaxial", "loading": {"confining_pressure": [0, 1e7]}, "specimen": {"seed": [1, 2]}})");
-    const auto splitting = decks.add("b.json", R"({"test": "brazilian"})");
+        decks.file("t.json", R"({"test": "triaxial", "loading": {"confining_pressure": [0, 1e7]}, "specimen": {"seed": [1, 2]}})");
+    const auto splitting = decks.file("b.json", R"({"test": "brazilian"})");
     const Plan plan = read_plan({confined, splitting}, {});
     REQUIRE(plan.members.size() == 5);
     std::vector<MemberResult> members;
@@ -226,7 +207,7 @@ TEST_CASE("a cell with a comma or a quote stays one cell") {
 }
 
 TEST_CASE("a folder gives up the members of the series that it held, and nothing else") {
-    const Decks decks;
+    const TemporaryFolder decks;
     const fs::path folder = decks.path() / "out";
     fs::create_directories(folder / "p_1MPa");
     fs::create_directories(folder / "mine");

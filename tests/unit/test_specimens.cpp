@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <omp.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -13,24 +12,13 @@
 #include "specimens/lattice.hpp"
 #include "specimens/statistics.hpp"
 #include "specimens/storage.hpp"
+#include "tests/support.hpp"
 
 using namespace proveta;
+using proveta::testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A folder that goes away with its test.
-struct TemporaryFolder {
-    fs::path path = fs::temp_directory_path() / ("proveta_test_" + std::to_string(::getpid()));
-    TemporaryFolder() { fs::create_directories(path); }
-    ~TemporaryFolder() { fs::remove_all(path); }
-    [[nodiscard]] std::string file(const std::string& name, const std::string& text = "") const {
-        if (!text.empty()) {
-            std::ofstream(path / name) << text;
-        }
-        return (path / name).string();
-    }
-};
 
 SpecimenRecipe small_recipe() {
     SpecimenRecipe r;

@@ -35,8 +35,7 @@ Ran run(const std::string& test, const std::string& more) {
     input::Json json = {
         {"test", test}, {"specimen", {{"diameter", "50 mm"}, {"height", "100 mm"}, {"spheres", 1500}}}, {"output", {{"fields", 0}}}};
     // Brittle, and strengths may be anything: what the machine does is the subject here, not what concrete_sfer does.
-    json["material"] = {{"elasticity", "as-given"}, {"normal_factor", 1.407}, {"shear_factor", 1.407},        {"strength_factor", 1.195},
-                        {"sigma_f", "5 MPa"},       {"tau_f", "16 MPa"},      {"fracture_energy_tension", 0}, {"fracture_energy_shear", 0}};
+    json["material"] = verification::brittle_concrete();
     json.merge_patch(input::Json::parse(more));
     Deck deck = read_deck(json, "test.json");
     Bench bench = set_up(deck, make_specimen(deck.specimen));

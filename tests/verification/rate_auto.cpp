@@ -20,8 +20,7 @@ struct Tested {
 // A brittle material, of which a steady rate spends most of its steps on the way to the peak.
 Tested tested(const std::string& more, const Specimen& specimen) {
     input::Json json = input::Json::parse(more);
-    json["material"] = {{"elasticity", "as-given"}, {"normal_factor", 1.407}, {"shear_factor", 1.407},
-                        {"strength_factor", 1.195}, {"sigma_f", "5 MPa"},     {"tau_f", "16 MPa"}};
+    json["material"] = verification::brittle_concrete();
     const Deck deck = small_deck(1500, json.dump());
     Bench bench = set_up(deck, specimen);
     const TestData data = run_protocol(deck, bench, {[](const TestData&, double) {}, [] {}, [] { return false; }});

@@ -1,0 +1,34 @@
+// What the commands that run tests share.
+#include <omp.h>
+
+#include "lab/cli/commands.hpp"
+
+namespace proveta {
+
+void add_settings(CLI::App& command, RunArguments& a) {
+    command.add_option("--set", a.settings, "change a value of the deck: a.b=v (may be given several times)")->allow_extra_args(false);
+    command.add_option("--threads", a.threads, "number of threads, of all tests together; results do not depend on it")
+        ->check(CLI::Range(1, 1024));
+}
+
+void add_output(CLI::App& command, RunArguments& a, const std::string& folder) {
+    command.add_option("--out", a.out, "result folder (default: " + folder + ")");
+    command.add_flag("--quiet", a.quiet, "no progress, no log but warnings and errors");
+}
+
+void use_threads(int threads) {
+    if (threads > 0) {
+        omp_set_num_threads(threads);
+    }
+}
+
+int exit_code(RunStatus status) {
+    switch (status) {
+    case RunStatus::complete: return 0;
+    case RunStatus::interrupted: return exit_interrupted;
+    case RunStatus::failed: break;
+    }
+    return exit_calculation;
+}
+
+} // namespace proveta
