@@ -17,7 +17,17 @@
 namespace proveta::input {
 
 /// Physical dimension of a parameter; decides which unit texts a string may carry. Values inside are SI.
-enum class Unit { none, length, area, pressure, density, velocity, time, energy_per_area };
+enum class Unit {
+    none,
+    length,
+    area,
+    pressure,
+    density,
+    velocity,
+    time,
+    energy_per_area,
+    any ///< a number whose dimension depends on another key; every unit text is taken
+};
 
 /// Allowed range of a number.
 struct Bounds {
@@ -59,7 +69,7 @@ class Visitor {
     virtual void integer(const char* key, std::int64_t& value, std::int64_t low, std::int64_t high, const char* meaning) = 0;
     virtual void text(const char* key, std::string& value, const char* meaning) = 0;
     virtual void choice(const char* key, std::string& value, const std::vector<Choice>& choices, const char* meaning) = 0;
-    /// A list of `count` numbers.
+    /// A list of `count` numbers; 0: of one or more.
     virtual void numbers(const char* key, std::vector<double>& values, std::size_t count, Unit unit, const Bounds& bounds,
                          const char* meaning) = 0;
     /// A key that users may expect here and that is refused, with the reason.

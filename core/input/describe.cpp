@@ -44,7 +44,7 @@ void Describer::numbers(const char* key, std::vector<double>& values, std::size_
     for (const double v : values) {
         fallback += (fallback.empty() ? "" : ", ") + format_quantity(v, unit);
     }
-    add(key, meaning, unit, fallback, fmt::format("list of {} numbers, each {}", count, bounds.text()));
+    add(key, meaning, unit, fallback, fmt::format("list of {}numbers, each {}", count > 0 ? fmt::format("{} ", count) : "", bounds.text()));
 }
 
 bool Describer::begin_section(const char* key, const char* meaning) {

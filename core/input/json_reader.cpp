@@ -39,10 +39,12 @@ std::string nearest_choice(const std::string& word, const std::vector<Choice>& c
 
 std::string expected_quantity(Unit unit, const Bounds& bounds) {
     const auto units = accepted_units(unit);
-    const std::string example =
-        unit == Unit::none ? "" : fmt::format(" (a number in {}, or a text with one of {})", si_unit(unit), fmt::join(units, ", "));
+    const std::string si = si_unit(unit);
+    const std::string example = unit == Unit::none ? ""
+                                                   : fmt::format(" (a number in {}, or a text with one of {})",
+                                                                 si.empty() ? "SI units" : si, fmt::join(units, ", "));
     const std::string range = bounds.text();
-    return (range == "any number" ? range : "a number " + range) + (unit == Unit::none ? "" : " " + si_unit(unit)) + example;
+    return (range == "any number" ? range : "a number " + range) + (si.empty() ? "" : " " + si) + example;
 }
 
 } // namespace
@@ -168,13 +170,13 @@ void JsonReader::numbers(const char* key, std::vector<double>& values, std::size
         return;
     }
     const std::string path = frames_.back().path + "/" + key;
-    if (!j->is_array() || j->size() != count) {
-        complain(path, shown(*j), fmt::format("a list of {} numbers", count));
+    if (!j->is_array() || j->empty() || (count > 0 && j->size() != count)) {
+        complain(path, shown(*j), count > 0 ? fmt::format("a list of {} numbers", count) : "a list of numbers");
         return;
     }
-    std::vector<double> read(count);
+    std::vector<double> read(j->size());
     bool good = true;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < read.size(); ++k) {
         good = to_number((*j)[k], fmt::format("{}/{}", path, k), unit, bounds, read[k]) && good;
     }
     if (good) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/input/json.hpp"
@@ -39,7 +40,7 @@ Json quantity(Unit unit, const Bounds& bounds) {
 }
 
 std::string with_unit(const char* meaning, Unit unit) {
-    return unit == Unit::none ? meaning : fmt::format("{} [{}]", meaning, si_unit(unit));
+    return si_unit(unit).empty() ? meaning : fmt::format("{} [{}]", meaning, si_unit(unit));
 }
 
 } // namespace
@@ -83,8 +84,14 @@ void SchemaWriter::choice(const char* key, std::string& value, const std::vector
 
 void SchemaWriter::numbers(const char* key, std::vector<double>& values, std::size_t count, Unit unit, const Bounds& bounds,
                            const char* meaning) {
-    stack_.back()["properties"][key] = {{"description", with_unit(meaning, unit)}, {"default", values}, {"type", "array"},
-                                        {"items", quantity(unit, bounds)},         {"minItems", count}, {"maxItems", count}};
+    stack_.back()["properties"][key] = {{"description", with_unit(meaning, unit)},
+                                        {"default", values},
+                                        {"type", "array"},
+                                        {"items", quantity(unit, bounds)},
+                                        {"minItems", std::max<std::size_t>(count, 1)}};
+    if (count > 0) {
+        stack_.back()["properties"][key]["maxItems"] = count;
+    }
 }
 
 bool SchemaWriter::begin_section(const char* key, const char* meaning) {

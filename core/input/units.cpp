@@ -24,6 +24,13 @@ const std::vector<Named>& table(Unit unit) {
     static const std::vector<Named> velocity{{"m/s", 1.0}, {"mm/s", 1e-3}, {"um/s", 1e-6}, {"mm/min", 1e-3 / 60.0}};
     static const std::vector<Named> time{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60.0}, {"h", 3600.0}};
     static const std::vector<Named> energy{{"J/m2", 1.0}, {"N/m", 1.0}, {"N/mm", 1e3}};
+    static const std::vector<Named> any = [] {
+        std::vector<Named> all;
+        for (const auto& of : {none, length, area, pressure, density, velocity, time, energy}) {
+            all.insert(all.end(), of.begin(), of.end());
+        }
+        return all;
+    }();
     switch (unit) {
     case Unit::length: return length;
     case Unit::area: return area;
@@ -32,6 +39,7 @@ const std::vector<Named>& table(Unit unit) {
     case Unit::velocity: return velocity;
     case Unit::time: return time;
     case Unit::energy_per_area: return energy;
+    case Unit::any: return any;
     case Unit::none: break;
     }
     return none;
@@ -76,8 +84,8 @@ Quantity parse_quantity(const std::string& text, Unit unit) {
 }
 
 std::string format_quantity(double value, Unit unit) {
-    if (unit == Unit::none || value == 0.0 || !std::isfinite(value)) {
-        return fmt::format("{:.6g}{}{}", value, unit == Unit::none ? "" : " ", si_unit(unit));
+    if (unit == Unit::none || unit == Unit::any || value == 0.0 || !std::isfinite(value)) {
+        return fmt::format("{:.6g}{}{}", value, si_unit(unit).empty() ? "" : " ", si_unit(unit));
     }
     // The largest unit of a power of ten that leaves a number of at least 1.
     const Named* best = &table(unit).front();

@@ -1,0 +1,228 @@
+#include "lab/trials/book.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <omp.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include "lab/series/workers.hpp"
+#include "lab/trials/pool.hpp"
+
+namespace proveta {
+
+namespace fs = std::filesystem;
+using input::Json;
+
+namespace {
+
+constexpr const char* ledger_name = "ledger.jsonl";
+
+Json to_json(const TrialResult& result) {
+    Json j{{"trial", result.key}, {"values", result.values}, {"jobs", Json::array()}};
+    for (const auto& job : result.jobs) {
+        j["jobs"].push_back(to_json(job));
+    }
+    return j;
+}
+
+// Whole lines of the ledger; good: bytes up to the end of the last of them.
+std::vector<TrialResult> read_lines(const fs::path& file, std::size_t& good) {
+    std::vector<TrialResult> out;
+    std::ifstream in(file, std::ios::binary);
+    std::string line;
+    good = 0;
+    while (std::getline(in, line) && !in.eof()) {
+        const Json json = Json::parse(line, nullptr, false);
+        if (!json.is_object() || !json.contains("trial") || !json.contains("jobs")) {
+            throw input::InputError({{file.string(), "", "a line that is no trial: " + line.substr(0, 60), "a ledger of trials", ""}});
+        }
+        TrialResult result{json["trial"], json["values"], {}};
+        for (const auto& job : json["jobs"]) {
+            result.jobs.push_back(job_result(job));
+        }
+        out.push_back(std::move(result));
+        good += line.size() + 1;
+    }
+    return out;
+}
+
+} // namespace
+
+std::optional<double> TrialResult::mean(const std::string& test, const std::string& result) const {
+    double sum = 0.0;
+    int n = 0;
+    for (const auto& job : jobs) {
+        if (job.test == test) {
+            const auto value = job.status == "complete" ? job.value(result) : std::nullopt;
+            if (!value) {
+                return std::nullopt;
+            }
+            sum += *value;
+            ++n;
+        }
+    }
+    return n > 0 ? std::optional(sum / n) : std::nullopt;
+}
+
+std::vector<TrialResult> TrialBook::read(const fs::path& out) {
+    std::size_t good = 0;
+    return read_lines(out / ledger_name, good);
+}
+
+TrialBook::TrialBook(fs::path out, BookMode mode, std::size_t threads, bool quiet)
+    : folders_(std::move(out)), mode_(mode), threads_(threads > 0 ? threads : static_cast<std::size_t>(omp_get_max_threads())),
+      progress_(quiet) {
+    const fs::path path = folders_.out() / ledger_name;
+    file_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    const auto refuse = [&](const std::string& found, const std::string& hint) {
+        throw input::InputError({{path.string(), "", found, "a ledger that can be written", hint}});
+    };
+    if (file_ < 0) {
+        refuse(std::string("cannot be opened: ") + std::strerror(errno), "");
+    }
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+        close(file_);
+        refuse("in use by another process", "wait for it, or take another --out");
+    }
+    try {
+        std::size_t good = 0;
+        for (auto& result : read_lines(path, good)) {
+            for (const auto& job : result.jobs) {
+                seconds_[job.name] = job.seconds;
+            }
+            known_.insert_or_assign(result.key, std::move(result));
+        }
+        if (ftruncate(file_, static_cast<off_t>(good)) != 0) { // half a line of a process that was killed
+            refuse(std::string("cannot be cut: ") + std::strerror(errno), "");
+        }
+    } catch (...) {
+        close(file_);
+        throw;
+    }
+}
+
+TrialBook::~TrialBook() { close(file_); }
+
+void TrialBook::record(const TrialResult& result) {
+    const std::string line = to_json(result).dump() + "\n";
+    if (write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size()) || fsync(file_) != 0) {
+        throw std::runtime_error(std::string("the ledger cannot be written: ") + std::strerror(errno));
+    }
+    known_.insert_or_assign(result.key, result);
+}
+
+// Takes a trial into the ledger whose jobs are all done.
+bool TrialBook::complete(const Trial& trial) {
+    TrialResult result{trial.key, trial.values, folders_.finished(trial.key)};
+    if (result.jobs.size() < trial.jobs.size()) {
+        return false;
+    }
+    record(result);
+    return true;
+}
+
+void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<std::size_t>& missing, const std::string& what) {
+    struct Unit {
+        std::size_t trial;
+        std::string job;
+        double spheres;
+    };
+    std::vector<Unit> units;
+    std::vector<std::size_t> left(trials.size(), 0); // jobs that a trial still waits for
+    for (const auto t : missing) {
+        std::set<std::string> done;
+        for (const auto& job : folders_.finished(trials[t].key)) {
+            done.insert(job.name);
+        }
+        for (const auto& job : trials[t].jobs) {
+            if (!done.contains(job.name)) {
+                units.push_back({t, job.name, job.deck["specimen"].value("spheres", 13500.0)});
+                ++left[t];
+            }
+        }
+    }
+    // The longest first, so that none is left over at the end. The order changes no result.
+    std::stable_sort(units.begin(), units.end(), [&](const Unit& a, const Unit& b) {
+        const auto cost = [&](const Unit& u) { return seconds_.contains(u.job) ? seconds_.at(u.job) : 1e6; };
+        return cost(a) > cost(b);
+    });
+    double largest = 0.0;
+    std::vector<ProcessCommand> commands;
+    for (const auto& u : units) {
+        largest = std::max(largest, u.spheres);
+    }
+    const std::size_t at_once =
+        members_at_once(threads_, units.size(), memory_of_test(static_cast<std::size_t>(largest)), available_memory());
+    for (const auto& u : units) {
+        const fs::path folder = folders_.trial(trials[u.trial].key);
+        commands.push_back(
+            {{"trial", folder.string(), "--job", u.job, "--threads", std::to_string(std::max<std::size_t>(threads_ / at_once, 1))},
+             (folder / u.job / "log.txt").string()});
+    }
+    std::size_t done = 0;
+    const auto ended = [&](std::size_t k, const std::string& failure) {
+        const Trial& trial = trials[units[k].trial];
+        const fs::path job = folders_.trial(trial.key) / units[k].job;
+        if (!failure.empty() && !fs::exists(job / "result.json")) {
+            write_failure(job, failure);
+        }
+        ++done;
+        if (--left[units[k].trial] == 0) {
+            if (!complete(trial)) {
+                throw std::runtime_error(
+                    fmt::format("a job of {} ended without a result; see its log.txt", folders_.trial(trial.key).string()));
+            }
+            ++carried_out_;
+            for (const auto& result : known_.at(trial.key).jobs) {
+                seconds_[result.name] = result.seconds;
+            }
+        }
+    };
+    const auto tick = [&] { progress_.show(fmt::format("{}: {} of {} tests done, {} at once", what, done, units.size(), at_once)); };
+    if (!run_processes(commands, at_once, ended, tick)) {
+        progress_.end_line();
+        throw TrialsInterrupted();
+    }
+    progress_.end_line();
+}
+
+std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const std::string& what) {
+    std::vector<std::size_t> missing;
+    std::set<std::string> asked;
+    for (std::size_t k = 0; k < trials.size(); ++k) {
+        trials[k] = keyed(std::move(trials[k]));
+        if (known_.contains(trials[k].key) || !asked.insert(trials[k].key).second) {
+            continue;
+        }
+        progress_.show(fmt::format("{}: making specimens", what));
+        folders_.write(trials[k]);
+        if (!complete(trials[k])) {
+            missing.push_back(k);
+        }
+    }
+    if (!missing.empty() && mode_ == BookMode::plan) {
+        std::vector<std::string> folders;
+        for (const auto k : missing) {
+            folders.push_back("trials/" + trials[k].key);
+        }
+        throw TrialsPlanned(std::move(folders));
+    }
+    if (!missing.empty()) {
+        carry_out(trials, missing, what);
+    }
+    std::vector<TrialResult> out;
+    for (const auto& trial : trials) {
+        out.push_back(known_.at(trial.key));
+        out.back().values = trial.values;
+    }
+    return out;
+}
+
+} // namespace proveta

@@ -1,0 +1,79 @@
+// The book of all trials: what was asked, what came of it. A trial is carried out once in its life.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lab/progress.hpp"
+#include "lab/trials/trial.hpp"
+
+namespace proveta {
+
+/// A trial that has ended.
+struct TrialResult {
+    std::string key;
+    std::vector<double> values;
+    std::vector<JobResult> jobs; ///< in the order asked
+
+    /// Mean of a result over the jobs of a test; none when any of them failed or lacks it.
+    [[nodiscard]] std::optional<double> mean(const std::string& test, const std::string& result) const;
+};
+
+/// What to do with trials that have not been carried out yet.
+enum class BookMode {
+    run, ///< carry them out here, as processes
+    plan ///< write their folders, and say which they are
+};
+
+/// Trials were planned and have to be carried out elsewhere before work can go on.
+struct TrialsPlanned : std::runtime_error {
+    explicit TrialsPlanned(std::vector<std::string> list) : std::runtime_error("trials planned"), folders(std::move(list)) {}
+    std::vector<std::string> folders; ///< relative to the result folder
+};
+
+/// Work was interrupted; what had ended is in the book.
+struct TrialsInterrupted : std::runtime_error {
+    TrialsInterrupted() : std::runtime_error("interrupted") {}
+};
+
+/// Keeps `ledger.jsonl` of a folder: a line of JSON for each trial as it ends. Opening it reads what an earlier process left, up to a line
+/// that it could not finish; a second process on the same folder is refused.
+class TrialBook {
+  public:
+    /// threads: of all trials together; 0: as OpenMP has. Throws InputError when the folder is in use or its ledger is another thing.
+    TrialBook(std::filesystem::path out, BookMode mode, std::size_t threads, bool quiet);
+    ~TrialBook();
+    TrialBook(const TrialBook&) = delete;
+    TrialBook& operator=(const TrialBook&) = delete;
+
+    /// The results of trials, in their order: from the ledger, or carried out now. what: shown meanwhile. Throws TrialsPlanned or
+    /// TrialsInterrupted.
+    std::vector<TrialResult> evaluate(std::vector<Trial> trials, const std::string& what);
+
+    /// Trials in the ledger, those of other questions included.
+    [[nodiscard]] std::size_t known() const { return known_.size(); }
+    /// Trials that this process has carried out.
+    [[nodiscard]] std::size_t carried_out() const { return carried_out_; }
+    [[nodiscard]] const TrialFolders& folders() const { return folders_; }
+
+    /// Reads a ledger without opening it: the results in the order of ending.
+    static std::vector<TrialResult> read(const std::filesystem::path& out);
+
+  private:
+    void record(const TrialResult& result);
+    bool complete(const Trial& trial);
+    void carry_out(const std::vector<Trial>& trials, const std::vector<std::size_t>& missing, const std::string& what);
+
+    TrialFolders folders_;
+    BookMode mode_;
+    std::size_t threads_;
+    Progress progress_;
+    int file_ = -1;
+    std::map<std::string, TrialResult> known_;
+    std::map<std::string, double> seconds_; ///< that a job of the name took lately
+    std::size_t carried_out_ = 0;
+};
+
+} // namespace proveta

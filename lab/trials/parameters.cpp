@@ -1,0 +1,178 @@
+#include "lab/trials/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/input/describe.hpp"
+#include "core/input/suggest.hpp"
+#include "lab/deck.hpp"
+
+namespace proveta {
+
+using input::Json;
+using input::Unit;
+
+namespace {
+
+Json::json_pointer pointer_of(const std::string& path) {
+    std::string text = "/" + path;
+    std::replace(text.begin(), text.end(), '.', '/');
+    return Json::json_pointer(text);
+}
+
+bool has(const Json& deck, const std::string& path) {
+    try {
+        return deck.contains(pointer_of(path));
+    } catch (const Json::exception&) {
+        return false;
+    }
+}
+
+// A number, or a word that stands for one ("auto").
+bool may_be_number(const Json& j) { return j.is_number() || j.is_string(); }
+
+// Paths of all values of a deck.
+void collect(const Json& json, const std::string& prefix, std::vector<std::string>& out) {
+    if (json.is_structured()) {
+        for (const auto& [key, value] : json.items()) {
+            collect(value, prefix.empty() ? key : prefix + "." + key, out);
+        }
+    } else if (may_be_number(json)) {
+        out.push_back(prefix);
+    }
+}
+
+// SI unit of a deck's value, by what the deck declares.
+std::string unit_of(const std::string& path) {
+    std::string declared = path;
+    const auto dot = declared.rfind('.');
+    if (dot != std::string::npos && declared.find_first_not_of("0123456789", dot + 1) == std::string::npos) {
+        declared.resize(dot);
+    }
+    input::Describer describer;
+    Deck deck;
+    declare(describer, deck);
+    for (const auto& p : describer.parameters()) {
+        if (p.path == declared) {
+            return p.unit;
+        }
+    }
+    return "";
+}
+
+} // namespace
+
+double Parameter::at(double u) const { return scale == "log" ? low * std::pow(high / low, u) : low + u * (high - low); }
+
+double Parameter::position(double value) const {
+    if (high == low) {
+        return 0.0;
+    }
+    return scale == "log" ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+}
+
+void declare(input::Visitor& v, Parameter& p) {
+    v.text("name", p.name, "what it is called in tables; by default the last part of its path");
+    v.text("path", p.path, "value of the decks, such as material.tau_f or material.lcs.0");
+    v.number("low", p.low, Unit::any, input::any_number(), "lower bound");
+    v.number("high", p.high, Unit::any, input::any_number(), "upper bound");
+    v.numbers("values", p.values, 0, Unit::any, input::any_number(), "levels of a grid, instead of bounds");
+    v.integer("levels", p.levels, 1, 1000, "number of levels of a grid between the bounds");
+    v.choice("scale", p.scale, {{"linear", "evenly between the bounds"}, {"log", "in equal ratios; both bounds above 0"}},
+             "how values lie between the bounds");
+    v.text("times", p.times,
+           "name of an earlier parameter: the deck gets that one's value times this one's, so that an order among values holds by itself");
+}
+
+ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vector<Json>& decks, const std::string& source,
+                               input::Problems& problems)
+    : parameters_(std::move(parameters)) {
+    std::vector<std::string> names;
+    std::vector<std::string> paths;
+    std::vector<std::string> known;
+    for (const auto& deck : decks) {
+        collect(deck, "", known);
+    }
+    for (std::size_t k = 0; k < parameters_.size(); ++k) {
+        auto& p = parameters_[k];
+        const std::string at = fmt::format("/parameters/{}", k);
+        const auto complain = [&](const std::string& key, const std::string& found, const std::string& expected,
+                                  const std::string& hint = "") {
+            problems.push_back({source, at + key, found, expected, hint});
+        };
+        if (p.name.empty()) {
+            const auto dot = p.path.rfind('.');
+            const bool index = dot != std::string::npos && p.path.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+            p.name = index ? p.path : p.path.substr(dot == std::string::npos ? 0 : dot + 1);
+        }
+        if (std::find(names.begin(), names.end(), p.name) != names.end()) {
+            complain("/name", "\"" + p.name + "\" again", "a name of its own", "give it a \"name\"");
+        }
+        if (std::find(paths.begin(), paths.end(), p.path) != paths.end()) {
+            complain("/path", "\"" + p.path + "\" again", "a value that no other parameter sets");
+        }
+        const bool there =
+            std::any_of(decks.begin(), decks.end(), [&](const Json& d) { return has(d, p.path) && may_be_number(d[pointer_of(p.path)]); });
+        if (!there) {
+            const std::string best = input::nearest(p.path, known);
+            complain("/path", "\"" + p.path + "\"", "the dotted path of a number in the decks",
+                     best.empty() ? "" : "did you mean \"" + best + "\"?");
+        }
+        if (!p.values.empty()) {
+            const auto [low, high] = std::minmax_element(p.values.begin(), p.values.end());
+            p.low = *low;
+            p.high = *high;
+        } else if (!(p.low < p.high)) {
+            complain("", fmt::format("low {:.6g}, high {:.6g}", p.low, p.high), "low below high");
+        }
+        if (p.scale == "log" && !(p.low > 0.0)) {
+            complain("/low", fmt::format("{:.6g}", p.low), "a number above 0 for a logarithmic scale");
+        }
+        parent_.push_back(k);
+        if (!p.times.empty()) {
+            const auto parent = std::find(names.begin(), names.end(), p.times);
+            if (parent == names.end()) {
+                complain("/times", "\"" + p.times + "\"", fmt::format("the name of an earlier parameter: {}", fmt::join(names, ", ")));
+            } else {
+                parent_.back() = static_cast<std::size_t>(parent - names.begin());
+            }
+        }
+        p.unit = unit_of(p.path);
+        names.push_back(p.name);
+        paths.push_back(p.path);
+    }
+}
+
+std::vector<double> ParameterSpace::values(const std::vector<double>& u) const {
+    std::vector<double> out;
+    for (std::size_t k = 0; k < size(); ++k) {
+        out.push_back(parameters_[k].at(u[k]));
+    }
+    return out;
+}
+
+std::vector<double> ParameterSpace::resolved(const std::vector<double>& values) const {
+    std::vector<double> out = values;
+    for (std::size_t k = 0; k < size(); ++k) {
+        out[k] = parent_[k] == k ? values[k] : values[k] * out[parent_[k]];
+    }
+    return out;
+}
+
+void ParameterSpace::apply(Json& deck, const std::vector<double>& values) const {
+    const auto written = resolved(values);
+    for (std::size_t k = 0; k < size(); ++k) {
+        if (has(deck, parameters_[k].path)) {
+            auto& target = deck[pointer_of(parameters_[k].path)];
+            if (target.is_number_integer()) {
+                target = static_cast<std::int64_t>(std::llround(written[k]));
+            } else {
+                target = written[k];
+            }
+        }
+    }
+}
+
+} // namespace proveta

@@ -1,0 +1,181 @@
+#include "lab/trials/trial.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <new>
+#include <sstream>
+
+#include "core/hash.hpp"
+#include "lab/progress.hpp"
+#include "lab/provenance.hpp"
+#include "lab/results.hpp"
+#include "lab/test_run.hpp"
+#include "lab/trials/csv.hpp"
+#include "reports/files.hpp"
+#include "specimens/storage.hpp"
+
+namespace proveta {
+
+namespace fs = std::filesystem;
+using input::Json;
+
+namespace {
+
+std::string key_of(const std::string& text) {
+    Hash hash;
+    for (const unsigned char c : text) {
+        hash.mix(static_cast<std::uint64_t>(c));
+    }
+    return hex(hash.value());
+}
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+bool made(const Json& deck) { return !deck["specimen"].contains("file") || deck["specimen"]["file"] == ""; }
+
+std::string specimen_key(const Json& deck) { return key_of(deck["specimen"].dump()); }
+
+void run(const fs::path& folder, JobResult& result) {
+    Deck deck = read_deck(input::load_json((folder / "deck.json").string()), (folder / "deck.json").string());
+    Bench bench = set_up(deck, obtain_specimen(deck.specimen, deck.folder, deck.source));
+    const TestData data = run_protocol(deck, bench, {[](const TestData&, double) {}, [] {}, interrupted});
+    result.reason = data.failure.empty() ? data.stopped_by : data.failure;
+    result.status = data.interrupted ? "interrupted" : data.failure.empty() ? "complete" : "failed";
+    if (result.status != "complete") {
+        return;
+    }
+    const report::Record record = make_record(deck, bench, data, {}, result.status);
+    for (const auto& scalar : record.results) {
+        if (scalar.value) {
+            result.results[scalar.name] = *scalar.value;
+        }
+    }
+    result.quasi_static = record.badges.front().good;
+    report::write_file((folder / "curve.csv").string(), report::to_csv(data.curve));
+}
+
+} // namespace
+
+Json to_json(const JobResult& r) {
+    return {{"job", r.name},        {"test", r.test},      {"status", r.status}, {"reason", r.reason}, {"quasi_static", r.quasi_static},
+            {"seconds", r.seconds}, {"results", r.results}};
+}
+
+JobResult job_result(const Json& j) {
+    return {j.at("job"), j.at("test"), j.at("status"), j.at("reason"), j.at("results"), j.at("quasi_static"), j.at("seconds")};
+}
+
+Trial keyed(Trial trial) {
+    std::string all = version();
+    for (const auto& job : trial.jobs) {
+        all += '\n' + job.name + ' ' + job.deck.dump();
+        if (!made(job.deck)) {
+            all += bytes_of(job.deck["specimen"]["file"].get<std::string>());
+        }
+    }
+    trial.key = key_of(all);
+    return trial;
+}
+
+void TrialFolders::write(const Trial& t) const {
+    const fs::path folder = trial(t.key);
+    Json list = Json::array();
+    for (const auto& job : t.jobs) {
+        Json deck = job.deck;
+        if (made(deck)) {
+            const std::string name = specimen_key(deck) + ".h5";
+            const fs::path file = out_ / "specimens" / name;
+            if (!fs::exists(file)) {
+                fs::create_directories(file.parent_path());
+                const Deck recipe = read_deck(deck, "deck");
+                save_specimen(make_specimen(recipe.specimen), file.string());
+            }
+            deck["specimen"] = {{"file", "../../../specimens/" + name}};
+        }
+        fs::create_directories(folder / job.name);
+        report::write_json((folder / job.name / "deck.json").string(), deck);
+        list.push_back({{"job", job.name}, {"test", job.test}});
+    }
+    report::write_json((folder / "trial.json").string(), {{"proveta_trial", 1}, {"values", t.values}, {"jobs", list}});
+}
+
+std::vector<std::string> jobs_of(const fs::path& trial) {
+    const Json json = input::load_json((trial / "trial.json").string());
+    if (!json.is_object() || !json.contains("proveta_trial")) {
+        throw input::InputError({{(trial / "trial.json").string(), "", "another file", "the trial.json of a planned trial", ""}});
+    }
+    std::vector<std::string> out;
+    for (const auto& job : json["jobs"]) {
+        out.push_back(job["job"]);
+    }
+    return out;
+}
+
+std::vector<JobResult> TrialFolders::finished(const std::string& key) const {
+    std::vector<JobResult> out;
+    if (!fs::exists(trial(key) / "trial.json")) {
+        return out;
+    }
+    for (const auto& name : jobs_of(trial(key))) {
+        std::ifstream in(trial(key) / name / "result.json");
+        const Json json = in ? Json::parse(in, nullptr, false) : Json();
+        if (json.is_object()) {
+            out.push_back(job_result(json));
+        }
+    }
+    return out;
+}
+
+namespace {
+
+JobResult unfinished(const fs::path& folder) {
+    JobResult result;
+    result.name = folder.filename().string();
+    const Json trial = input::load_json((folder.parent_path() / "trial.json").string());
+    for (const auto& job : trial["jobs"]) {
+        if (job["job"] == result.name) {
+            result.test = job["test"];
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+void write_failure(const fs::path& folder, const std::string& reason) {
+    JobResult result = unfinished(folder);
+    result.status = "failed";
+    result.reason = reason;
+    report::write_json((folder / "result.json").string(), to_json(result));
+}
+
+bool run_job(const fs::path& folder) {
+    JobResult result = unfinished(folder);
+    const auto start = std::chrono::steady_clock::now();
+    try {
+        run(folder, result);
+    } catch (const std::bad_alloc&) {
+        result.status = "failed";
+        result.reason = "not enough memory";
+    } catch (const std::exception& e) {
+        result.status = "failed";
+        result.reason = e.what();
+    }
+    if (result.status == "interrupted") {
+        return false;
+    }
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report::write_json((folder / "result.json").string(), to_json(result));
+    return true;
+}
+
+report::Table job_curve(const fs::path& job) { return read_csv((job / "curve.csv").string()); }
+
+} // namespace proveta

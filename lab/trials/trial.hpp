@@ -1,0 +1,89 @@
+// A trial: some tests with one set of parameters, in a folder of its own, which a command carries out.
+//
+//     OUT/specimens/KEY.h5           specimens, shared by all trials
+//     OUT/trials/KEY/trial.json      names of the jobs, values of the parameters
+//     OUT/trials/KEY/JOB/deck.json   a deck like any other
+//     OUT/trials/KEY/JOB/result.json written last: a job that has one is done
+//     OUT/trials/KEY/JOB/curve.csv
+//
+// Keys are hashes of what is asked, so that the same question finds its earlier answer.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/json.hpp"
+#include "reports/record/record.hpp"
+
+namespace proveta {
+
+/// One test on one specimen.
+struct Job {
+    std::string name; ///< of its folder: test, or test_seed_N
+    std::string test; ///< of `TrialTest`
+    input::Json deck; ///< resolved
+};
+
+/// What is asked: the jobs of one set of parameters.
+struct Trial {
+    std::vector<double> values; ///< own values of the parameters
+    std::vector<Job> jobs;
+    std::string key; ///< set by `keyed`
+};
+
+/// What a job came to.
+struct JobResult {
+    std::string name, test;
+    std::string status;                    ///< complete or failed
+    std::string reason;                    ///< why the test ended, or what failed
+    std::map<std::string, double> results; ///< those that could be determined
+    bool quasi_static = false;
+    double seconds = 0.0; ///< wall time on its threads
+
+    [[nodiscard]] std::optional<double> value(const std::string& result) const {
+        const auto found = results.find(result);
+        return found == results.end() ? std::nullopt : std::optional(found->second);
+    }
+};
+
+input::Json to_json(const JobResult& result);
+JobResult job_result(const input::Json& json);
+
+/// The trial with its key. Program version, decks and the bytes of stored specimens count.
+Trial keyed(Trial trial);
+
+/// Where trials live.
+class TrialFolders {
+  public:
+    explicit TrialFolders(std::filesystem::path out) : out_(std::move(out)) {}
+
+    [[nodiscard]] std::filesystem::path trial(const std::string& key) const { return out_ / "trials" / key; }
+    [[nodiscard]] const std::filesystem::path& out() const { return out_; }
+
+    /// Writes the folder of a trial, and the specimens it needs that are not there yet. Deck and specimen are checked against each other
+    /// only when the job runs.
+    void write(const Trial& trial) const;
+    /// The jobs of a trial that are done, in its order.
+    [[nodiscard]] std::vector<JobResult> finished(const std::string& key) const;
+
+  private:
+    std::filesystem::path out_;
+};
+
+/// Carries out one job of a trial's folder, whatever went before, and writes its result. What fails is a result too. Returns false on an
+/// interrupt, which leaves none.
+bool run_job(const std::filesystem::path& folder);
+
+/// Names of the jobs of a trial's folder. Throws InputError when it is none.
+std::vector<std::string> jobs_of(const std::filesystem::path& trial);
+
+/// Puts a failure in the place of a job's result.
+void write_failure(const std::filesystem::path& job, const std::string& reason);
+
+/// The curve of a job that is done.
+report::Table job_curve(const std::filesystem::path& job);
+
+} // namespace proveta
