@@ -180,6 +180,18 @@ void check_card(const Card& c, const std::string& source, const std::string& pat
     only_thesis(c.twisting_factor > 0.0, "twisting_factor", fmt::format("{}", c.twisting_factor));
 }
 
+namespace {
+
+// A card without what a calibration says of its making, which changes nothing.
+input::Json without_evidence(input::Json card) {
+    if (card.is_object()) {
+        card.erase("evidence");
+    }
+    return card;
+}
+
+} // namespace
+
 std::vector<std::string> card_names() {
     std::vector<std::string> names;
     for (const auto& [name, text] : builtin_cards()) {
@@ -193,7 +205,7 @@ Card load_card(const std::string& name_or_file, const std::string& folder, const
         if (name_or_file == name) {
             Card card;
             input::Problems problems;
-            input::read(input::Json::parse(text), card, std::string("card ") + name, "", problems);
+            input::read(without_evidence(input::Json::parse(text)), card, std::string("card ") + name, "", problems);
             if (!problems.empty()) {
                 throw input::InputError(problems);
             }
@@ -215,7 +227,7 @@ Card load_card(const std::string& name_or_file, const std::string& folder, const
                                   best.empty() ? "" : fmt::format("did you mean \"{}\"?", best)}});
     }
     input::Problems problems;
-    const auto json = input::load_json(file.string());
+    const auto json = without_evidence(input::load_json(file.string()));
     MaterialInput material;
     material.card = custom_card;
     const bool based = json.contains("card") && json["card"].is_string();

@@ -20,6 +20,7 @@ void add_schema(CLI::App& app, Command& chosen);
 void add_specimen(CLI::App& app, Command& chosen);
 void add_elastic(CLI::App& app, Command& chosen);
 void add_study(CLI::App& app, const std::string& typed, Command& chosen);
+void add_calibrate(CLI::App& app, const std::string& typed, Command& chosen);
 void add_trial(CLI::App& app, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
 void add_bench(CLI::App& app, Command& chosen);

@@ -6,6 +6,7 @@
 
 #include "core/input/describe.hpp"
 #include "core/input/suggest.hpp"
+#include "lab/calibrate/input.hpp"
 #include "lab/cli/commands.hpp"
 #include "lab/deck.hpp"
 #include "lab/protocols/registry.hpp"
@@ -147,13 +148,16 @@ void add_describe(CLI::App& app, Command& chosen) {
 
 void add_schema(CLI::App& app, Command& chosen) {
     auto kind = std::make_shared<std::string>("deck");
-    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks or material cards");
-    command->add_option("kind", *kind, "deck or card")->check(CLI::IsMember({"deck", "card"}));
+    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks, material cards or calibrations");
+    command->add_option("kind", *kind, "deck, card or calibration")->check(CLI::IsMember({"deck", "card", "calibration"}));
     command->callback([kind, &chosen] {
         chosen = [kind] {
             input::Json schema;
             if (*kind == "deck") {
                 schema = deck_schema();
+            } else if (*kind == "calibration") {
+                schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Proveta calibration"}};
+                schema.update(calibration_schema());
             } else {
                 schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Proveta material card"}};
                 MaterialInput material;

@@ -58,18 +58,20 @@ void run(const fs::path& folder, JobResult& result) {
         }
     }
     result.quasi_static = record.badges.front().good;
+    result.sense = bench.press.sense;
     report::write_file((folder / "curve.csv").string(), report::to_csv(data.curve));
 }
 
 } // namespace
 
 Json to_json(const JobResult& r) {
-    return {{"job", r.name},        {"test", r.test},      {"status", r.status}, {"reason", r.reason}, {"quasi_static", r.quasi_static},
-            {"seconds", r.seconds}, {"results", r.results}};
+    return {{"job", r.name},    {"test", r.test},       {"status", r.status},  {"reason", r.reason}, {"quasi_static", r.quasi_static},
+            {"sense", r.sense}, {"seconds", r.seconds}, {"results", r.results}};
 }
 
 JobResult job_result(const Json& j) {
-    return {j.at("job"), j.at("test"), j.at("status"), j.at("reason"), j.at("results"), j.at("quasi_static"), j.at("seconds")};
+    return {j.at("job"),     j.at("test"),         j.at("status"), j.at("reason"),
+            j.at("results"), j.at("quasi_static"), j.at("sense"),  j.at("seconds")};
 }
 
 Trial keyed(Trial trial) {
@@ -176,6 +178,19 @@ bool run_job(const fs::path& folder) {
     return true;
 }
 
-report::Table job_curve(const fs::path& job) { return read_csv((job / "curve.csv").string()); }
+report::Table job_curve(const fs::path& job) {
+    report::Table table = read_csv((job / "curve.csv").string());
+    // Headings are names with units (`report::Column::heading`).
+    for (auto& column : table.columns) {
+        for (const char* unit : {"Pa", "N", "s", "m/s"}) {
+            const std::string ending = std::string("_") + unit;
+            if (column.unit.empty() && column.name.ends_with(ending)) {
+                column.unit = unit;
+                column.name.resize(column.name.size() - ending.size());
+            }
+        }
+    }
+    return table;
+}
 
 } // namespace proveta

@@ -41,6 +41,7 @@ struct JobResult {
     std::string reason;                    ///< why the test ended, or what failed
     std::map<std::string, double> results; ///< those that could be determined
     bool quasi_static = false;
+    double sense = 1.0;   ///< of the test: 1 where compression is positive, -1 where tension is
     double seconds = 0.0; ///< wall time on its threads
 
     [[nodiscard]] std::optional<double> value(const std::string& result) const {

@@ -1,0 +1,311 @@
+#include "lab/calibrate/calibrate_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "lab/provenance.hpp"
+
+namespace proveta {
+
+namespace {
+
+using report::Curve;
+using report::CurveStyle;
+using report::Plot;
+using report::TextTable;
+
+constexpr const char* palette[] = {"#1f4e79", "#c0392b", "#1e7b46", "#b9770e", "#7d3c98", "#0e8a93", "#7f8c8d", "#d35f9e"};
+const char* colour(std::size_t k) { return palette[k % std::size(palette)]; }
+
+// A value in the unit that people use.
+std::string shown(double value, const std::string& unit) {
+    const auto r = report::readable({"", "", value, unit, ""});
+    return fmt::format("{:.4g}{}{}", r.value.value_or(value), r.unit.empty() ? "" : " ", r.unit);
+}
+
+// Results that are stresses are the only ones that targets name without a unit of their own.
+std::string shown_result(double value) { return std::fabs(value) > 1e3 ? shown(value, "Pa") : fmt::format("{:.4g}", value); }
+
+const TrialResult& result_for(const Target& target, const std::vector<Target>& targets, const CalibrationOutcome& outcome) {
+    for (const auto& t : targets) {
+        if (t.input.test == target.input.test && t.input.fitted()) {
+            return outcome.best_trial().result;
+        }
+    }
+    return outcome.predictions;
+}
+
+TextTable targets_table(const std::vector<Target>& targets, const CalibrationOutcome& outcome, const TrialFolders& folders, bool fitted) {
+    TextTable table{fitted ? "Targets and what the card gives" : "Predictions of what was left out of the fit",
+                    {{"Target", "Kind", "Wanted", "Found", "Deviation", "Tolerance", "Met"}}};
+    for (const auto& t : targets) {
+        if (t.input.fitted() != fitted) {
+            continue;
+        }
+        const Comparison c = compare(t, result_for(t, targets, outcome), folders);
+        const bool curve = t.input.is_curve();
+        table.rows.push_back({t.input.title(), t.input.kind, curve ? "curve" : shown_result(t.input.value),
+                              !c.found ? "not determined"
+                              : curve  ? "curve"
+                                       : shown_result(c.value),
+                              c.found ? fmt::format("{:+.1f} %{}", 100.0 * c.distance, curve ? " rms" : "") : "",
+                              fmt::format("{:.3g} %", 100.0 * t.input.tolerance),
+                              c.found && std::fabs(c.distance) <= t.input.tolerance ? "yes" : "no"});
+    }
+    return table;
+}
+
+TextTable parameters_table(const CalibrationPlan& plan, const CalibrationOutcome& outcome) {
+    TextTable table{"Parameters", {{"Parameter", "Value", "Bounds", "Standard error", "Remark"}}};
+    const auto& best = outcome.best_trial();
+    const auto own = plan.space.values(best.u);
+    for (std::size_t k = 0; k < plan.space.size(); ++k) {
+        const auto& p = plan.space[k];
+        const std::string unit = p.times.empty() ? p.unit : "";
+        std::string error;
+        std::string remark;
+        if (outcome.confidence) {
+            const double e = outcome.confidence->standard_error[k];
+            error = "+- " + shown(0.5 * std::fabs(p.at(best.u[k] + e) - p.at(best.u[k] - e)), unit);
+            remark = e > 0.25 ? "hardly told by these targets" : "";
+        }
+        if (best.u[k] < 0.02 || best.u[k] > 0.98) {
+            remark += std::string(remark.empty() ? "" : "; ") + "at a bound: widen it";
+        }
+        table.rows.push_back({p.name + (p.times.empty() ? "" : " (times " + p.times + ")"), shown(own[k], unit),
+                              fmt::format("{} to {}", shown(p.low, unit), shown(p.high, unit)), error, remark});
+    }
+    return table;
+}
+
+TextTable correlation_table(const CalibrationPlan& plan, const Confidence& c) {
+    TextTable table{"Correlation of the parameters' errors (1: only their difference is known; -1: only their sum)", {{""}}};
+    for (std::size_t k = 0; k < plan.space.size(); ++k) {
+        table.rows.front().push_back(plan.space[k].name);
+    }
+    for (std::size_t a = 0; a < plan.space.size(); ++a) {
+        std::vector<std::string> row{plan.space[a].name};
+        for (std::size_t b = 0; b < plan.space.size(); ++b) {
+            row.push_back(fmt::format("{:.2f}", c.correlation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b))));
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+TextTable rounds_table(const CalibrationOutcome& outcome) {
+    TextTable table{"Rounds on whole specimens", {{"Round", "Score expected from small specimens", "Score found"}}};
+    for (std::size_t k = 0; k < outcome.rounds.size(); ++k) {
+        table.rows.push_back(
+            {std::to_string(k + 1), fmt::format("{:.3f}", outcome.rounds[k].expected), fmt::format("{:.3f}", outcome.rounds[k].score)});
+    }
+    return table;
+}
+
+Plot progress_plot(const CalibrationOutcome& outcome) {
+    Plot plot{"The search: score (weighted root mean square deviation, in tolerances)", "trial", "score", {}, {}};
+    Curve small{"small specimens", {}, {}, "#9aa5b1", CurveStyle::points};
+    Curve best{"best so far", {}, {}, "#1f4e79"};
+    Curve whole{"whole specimens", {}, {}, "#c0392b", CurveStyle::points};
+    double least = INFINITY;
+    for (std::size_t k = 0; k < outcome.trials.size(); ++k) {
+        const auto& t = outcome.trials[k];
+        if (!t.deviations.complete) {
+            continue;
+        }
+        const double score = std::min(t.deviations.score(), missing_deviation);
+        (t.whole ? whole : small).x.push_back(static_cast<double>(k + 1));
+        (t.whole ? whole : small).y.push_back(score);
+        if (!t.whole && score < least) {
+            least = score;
+            best.x.push_back(static_cast<double>(k + 1));
+            best.y.push_back(score);
+        }
+    }
+    plot.curves = {small, best, whole};
+    return plot;
+}
+
+Plot profile_plot(const CalibrationPlan& plan, const Confidence& c) {
+    Plot plot{"Profiles: score with one parameter moved, the others at the best (small specimens, corrected)",
+              "position between the parameter's bounds",
+              "score",
+              {},
+              {}};
+    for (std::size_t k = 0; k < c.profiles.size(); ++k) {
+        Curve curve{plan.space[k].name, {}, {}, colour(k), k < std::size(palette) ? CurveStyle::solid : CurveStyle::dashed};
+        for (std::size_t p = 0; p < c.profiles[k].u.size(); ++p) {
+            if (std::isfinite(c.profiles[k].score[p])) {
+                curve.x.push_back(c.profiles[k].u[p]);
+                curve.y.push_back(c.profiles[k].score[p]);
+            }
+        }
+        plot.curves.push_back(std::move(curve));
+    }
+    plot.x_from_zero = true;
+    return plot;
+}
+
+std::string axis_of(const std::string& quantity) {
+    return quantity == "total_stress"        ? "total axial stress [MPa]"
+           : quantity == "deviatoric_stress" ? "deviatoric stress [MPa]"
+           : quantity == "axial_strain"      ? "axial strain, platens [%]"
+           : quantity == "gauge_strain"      ? "axial strain, gauge [%]"
+           : quantity == "volumetric_strain" ? "volumetric strain [%]"
+                                             : "circumferential strain [%]";
+}
+
+double scale_of(const std::string& quantity) { return quantity.ends_with("stress") ? 1e-6 : 100.0; }
+
+std::vector<Plot> curve_plots(const std::vector<Target>& targets, const CalibrationOutcome& outcome, const TrialFolders& folders) {
+    std::vector<Plot> out;
+    for (const auto& t : targets) {
+        if (!t.input.is_curve()) {
+            continue;
+        }
+        const Comparison c = compare(t, result_for(t, targets, outcome), folders);
+        const double sx = scale_of(t.input.x);
+        const double sy = scale_of(t.input.y);
+        Plot plot{t.input.test + (t.input.fitted() ? " (fitted)" : " (predicted)"), axis_of(t.input.x), axis_of(t.input.y), {}, {}};
+        Curve wanted{t.input.kind, {}, {}, "#111111", CurveStyle::dashed};
+        Curve found{"this card, mean over specimens", {}, {}, t.input.fitted() ? "#1f4e79" : "#c0392b"};
+        for (std::size_t k = 0; k < t.curve.x.size(); ++k) {
+            wanted.x.push_back(sx * t.curve.x[k]);
+            wanted.y.push_back(sy * t.curve.y[k]);
+        }
+        for (std::size_t k = 0; c.found && k < c.curve.x.size(); ++k) {
+            found.x.push_back(sx * c.curve.x[k]);
+            found.y.push_back(sy * c.curve.y[k]);
+        }
+        plot.curves = {wanted, found};
+        out.push_back(std::move(plot));
+    }
+    return out;
+}
+
+// What the targets and the data were taken to be.
+TextTable statement_table(const std::vector<Target>& targets) {
+    TextTable table{"What the targets are", {{"Target", "Use", "Kind", "Source", "How it was read"}}};
+    for (const auto& t : targets) {
+        const auto& in = t.input;
+        const std::string how =
+            in.is_curve()
+                ? fmt::format("columns {} and {}, times {} and {}; strain offset {:.3g} taken off; toe {}; x from {:.4g} to {:.4g}",
+                              in.x_column, in.y_column, in.x_factor, in.y_factor, in.x_offset, in.toe, t.curve.x.front(), t.curve.x.back())
+                : "as given";
+        table.rows.push_back({in.title(), in.use, in.kind, in.source, how});
+    }
+    return table;
+}
+
+} // namespace
+
+TextTable trials_table(const CalibrationPlan& plan, const std::vector<Target>& targets, const CalibrationOutcome& outcome,
+                       const TrialFolders& folders) {
+    TextTable table{"One row a trial. Parameters as written into the decks, SI; score in tolerances; results SI, of a curve its relative "
+                    "root mean square distance",
+                    {{"trial", "phase", "specimens"}}};
+    auto& heading = table.rows.front();
+    for (std::size_t k = 0; k < plan.space.size(); ++k) {
+        heading.push_back(plan.space[k].name);
+    }
+    heading.emplace_back("score");
+    for (const auto& t : targets) {
+        if (t.input.fitted()) {
+            heading.push_back(t.input.title());
+        }
+    }
+    heading.emplace_back("failures");
+    for (std::size_t k = 0; k < outcome.trials.size(); ++k) {
+        const auto& trial = outcome.trials[k];
+        std::vector<std::string> row{std::to_string(k + 1), trial.phase, trial.whole ? "whole" : "small"};
+        for (const double v : trial.result.values) {
+            row.push_back(fmt::format("{:.9g}", v));
+        }
+        row.push_back(fmt::format("{:.6g}", trial.deviations.score()));
+        for (const auto& t : targets) {
+            if (t.input.fitted()) {
+                const Comparison c = compare(t, trial.result, folders);
+                row.push_back(!c.found ? "" : fmt::format("{:.9g}", t.input.is_curve() ? c.distance : c.value));
+            }
+        }
+        std::string failures;
+        for (const auto& job : trial.result.jobs) {
+            failures += job.status == "complete" ? "" : job.name + ": " + job.reason + "; ";
+        }
+        row.push_back(failures);
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+report::Record calibration_record(const CalibrationPlan& plan, const std::vector<Target>& targets, const CalibrationOutcome& outcome,
+                                  const TrialFolders& folders) {
+    const auto& best = outcome.best_trial();
+    report::Record r;
+    r.title = plan.input.title;
+    r.subtitle = fmt::format("calibration of {} parameters on {} tests", plan.space.size(), plan.tests.size());
+    r.status = "complete";
+    std::size_t failed = 0;
+    for (const auto& t : outcome.trials) {
+        failed += t.deviations.complete ? 0 : 1;
+    }
+    r.stopped_by = fmt::format("{} trials, of which {} did not give every target", outcome.trials.size(), failed);
+    r.overview = {targets_table(targets, outcome, folders, true)};
+    bool predicts = false;
+    for (const auto& t : targets) {
+        predicts = predicts || !t.input.fitted();
+        if (t.input.kind != "measured") {
+            r.warnings.push_back(fmt::format("\"{}\" is {}, not a measurement.", t.input.title(),
+                                             t.input.kind == "estimate" ? "an estimate" : "a calculation"));
+        }
+    }
+    if (predicts) {
+        r.overview.push_back(targets_table(targets, outcome, folders, false));
+    }
+    r.overview.push_back(parameters_table(plan, outcome));
+    if (!best.deviations.complete) {
+        r.warnings.emplace_back("The best trial lacks results that targets speak of.");
+    }
+    for (const auto& job : best.result.jobs) {
+        if (job.status == "complete" && !job.quasi_static) {
+            r.warnings.push_back(job.name + " of the best trial was not quasi-static by its own verdict.");
+        }
+    }
+    r.results.push_back({"score", "Score of the card", best.deviations.score(), "",
+                         "weighted root mean square deviation from the fitted targets, in tolerances"});
+    if (outcome.confidence) {
+        r.results.push_back({"noise_of_score", "Noise floor of the score", outcome.confidence->noise_of_score, "",
+                             "root mean square of what single small specimens of one card differ by, in tolerances"});
+    }
+    r.plots = curve_plots(targets, outcome, folders);
+    r.plots.push_back(progress_plot(outcome));
+    if (outcome.confidence) {
+        r.plots.push_back(profile_plot(plan, *outcome.confidence));
+        r.tables.push_back(correlation_table(plan, *outcome.confidence));
+    }
+    if (!outcome.rounds.empty()) {
+        r.tables.push_back(rounds_table(outcome));
+    }
+    r.tables.push_back(statement_table(targets));
+    r.tables.push_back({"Provenance",
+                        {{"What", "Value"},
+                         {"Program", "Proveta " + version()},
+                         {"Calibration", plan.source},
+                         {"Every trial", "ledger.jsonl, trials.csv and the folders in trials"},
+                         {"To repeat", "proveta calibrate manifest.json --out NEW_FOLDER"}}});
+    return r;
+}
+
+input::Json calibration_summary(const CalibrationPlan& plan, const report::Record& record, const input::Json& card) {
+    input::Json j{{"title", plan.input.title}, {"status", record.status}, {"stopped_by", record.stopped_by}};
+    for (const auto& s : record.results) {
+        j["results"][s.name] = {{"value", s.value ? input::Json(*s.value) : input::Json()}, {"unit", s.unit}, {"formula", s.formula}};
+    }
+    j["evidence"] = card["evidence"];
+    j["warnings"] = record.warnings;
+    return j;
+}
+
+} // namespace proveta

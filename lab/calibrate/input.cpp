@@ -1,0 +1,216 @@
+#include "lab/calibrate/input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "lab/deck.hpp"
+
+namespace proveta {
+
+using input::above;
+using input::between;
+using input::Json;
+using input::Unit;
+
+void declare(input::Visitor& v, TargetInput& t) {
+    v.text("test", t.test, "name of the test");
+    v.choice("use", t.use, {{"fit", "the card is fitted to it"}, {"predict", "left out of the fit and predicted at the end"}},
+             "what it is there for");
+    v.choice("kind", t.kind,
+             {{"measured", "a measurement"}, {"estimate", "an estimate, such as an empirical envelope"}, {"computed", "a calculation"}},
+             "what it is");
+    v.text("source", t.source, "paper, laboratory or calculation that it comes from");
+    v.number("weight", t.weight, Unit::none, above(0), "weight among the targets");
+    v.number("tolerance", t.tolerance, Unit::none, above(0),
+             "what may be missed: of a result relative to its value, of a curve the root mean square distance relative to the curve's own");
+    v.text("result", t.result, "name of a result, as in summary.json");
+    v.number("value", t.value, Unit::any, input::any_number(), "what the result should be");
+    v.text("curve", t.curve, "CSV file of a measured curve, relative to this file; instead of result and value");
+    const std::vector<input::Choice> strains{{"axial_strain", "of the platens"},
+                                             {"gauge_strain", "of the middle gauge length"},
+                                             {"circumferential_strain", "of the girth, positive when the specimen gets thinner"},
+                                             {"volumetric_strain", "positive when it gets smaller"}};
+    v.choice("x", t.x, strains, "what the curve runs over; since the axial loading began, in the sense of the test");
+    auto quantities = strains;
+    quantities.push_back({"total_stress", "total axial stress"});
+    quantities.push_back({"deviatoric_stress", "axial minus lateral stress"});
+    quantities.push_back({"", "not named, which a curve must not be"});
+    v.choice("y", t.y, quantities, "what the curve shows; total and deviatoric stress differ by the confinement, so that it must be named");
+    v.text("x_column", t.x_column, "column of the file by its heading, or by its number from 1 where there are no headings");
+    v.text("y_column", t.y_column, "the same");
+    v.number("x_factor", t.x_factor, Unit::none, input::any_number(), "makes the file's x a strain in the sense of the test: -1, 0.01");
+    v.number("y_factor", t.y_factor, Unit::none, input::any_number(), "makes the file's y SI in the sense of the test: 1e6 for MPa");
+    v.number("x_offset", t.x_offset, Unit::none, input::any_number(),
+             "strain, after the factor, that is taken off: bedding before the specimen carried");
+    v.choice("toe", t.toe,
+             {{"as_measured", "the curve stays as it is"},
+              {"removed", "the straight part from 10 % to 33 % of the peak, drawn on to zero, is where strain begins (ASTM D7012)"}},
+             "what is done about the toe of the measured curve");
+    v.number_or_word("from", t.from, {{"start", "the curve's first point"}}, Unit::none, input::any_number(), "first x that counts");
+    v.number_or_word("to", t.to, {{"end", "the curve's last point"}}, Unit::none, input::any_number(), "last x that counts");
+}
+
+void declare(input::Visitor& v, SearchInput& s) {
+    v.number("spheres", s.spheres, Unit::none, {0.0, 1.0, true, false},
+             "spheres of the specimens that the search runs on, over those of the decks");
+    v.integer("seeds", s.seeds, 1, 100, "specimens of each test that the search runs on, the first of its seeds");
+    v.integer("trials", s.trials, 1, 100000, "trials of the search");
+    v.integer("batch", s.batch, 1, 1000,
+              "trials that are chosen, and can be carried out, at a time; part of what makes a search repeatable");
+    v.integer("seed", s.seed, 0, 1000000000, "seed of the search's random numbers, its start among them");
+    v.choice("method", s.method,
+             {{"mixed", "half of each batch by models of the single deviations from the targets, half by the global search"},
+              {"global", "dlib's global function search alone"},
+              {"models", "the models of the single deviations alone, after a random start"}},
+             "how trials are chosen");
+    v.number("good_enough", s.good_enough, Unit::none, input::at_least(0),
+             "score, in tolerances, at which the search ends before its trials are used up");
+}
+
+void declare(input::Visitor& v, FinishInput& f) {
+    v.integer(
+        "rounds", f.rounds, 0, 100,
+        "rounds with the decks' whole specimens and seeds, of which each corrects the search's small ones; 0: none, the search is all");
+    v.integer("trials", f.trials, 1, 100000, "trials on small specimens between two rounds");
+}
+
+void declare(input::Visitor& v, ConfidenceInput& c) {
+    v.integer("seeds", c.seeds, 0, 1000, "specimens of each test that the noise is measured with; 0: no statement of confidence");
+    v.number("step", c.step, Unit::none, {0.0, 0.5, true, false},
+             "step to both sides of the best, over the range of a parameter, for its profile");
+}
+
+void declare(input::Visitor& v, CardInput& c) {
+    v.text("name", c.name, "name of the card that is written");
+    v.text("about", c.about, "what it is a card of");
+    v.text("status", c.status, "\"provisional\" until measured curves stand behind it");
+}
+
+void declare(input::Visitor& v, CalibrationInput& c) {
+    v.text("title", c.title, "title of the report");
+    v.list("parameters", c.parameters, "what may be varied");
+    v.list("targets", c.targets, "what the tests should come to");
+    v.section("search", c.search, "the search on small specimens");
+    v.section("finish", c.finish, "the end of the search on whole specimens");
+    v.section("confidence", c.confidence, "how sure the card is");
+    v.section("card", c.card, "the card that is written");
+}
+
+namespace {
+
+constexpr const char* manifest_mark = "proveta_calibration_manifest";
+
+void check_target(const TargetInput& t, const std::string& at, const std::vector<TrialTest>& tests, const std::string& file,
+                  input::Problems& problems) {
+    const auto complain = [&](const char* key, const std::string& found, const std::string& expected, const std::string& hint = "") {
+        problems.push_back({file, at + key, found, expected, hint});
+    };
+    std::vector<std::string> names;
+    for (const auto& test : tests) {
+        names.push_back(test.name);
+    }
+    if (std::find(names.begin(), names.end(), t.test) == names.end()) {
+        complain("/test", "\"" + t.test + "\"", fmt::format("the name of a test: {}", fmt::join(names, ", ")));
+    }
+    if (t.is_curve() == !t.result.empty()) {
+        complain("", t.is_curve() ? "a result and a curve" : "neither result nor curve", "one of \"result\" with \"value\", and \"curve\"");
+    }
+    if (!t.is_curve() && t.value == 0.0) {
+        complain("/value", "0", "a value other than 0, to which the tolerance is relative");
+    }
+    if (t.is_curve() && t.y.empty()) {
+        complain("/y", "nothing", "what the curve shows: \"total_stress\", \"deviatoric_stress\" or a strain",
+                 "total and deviatoric stress differ by the confining pressure");
+    }
+    if (t.is_curve() && t.y == t.x) {
+        complain("/y", "\"" + t.y + "\" over itself", "another quantity than x");
+    }
+}
+
+// Decks that the parameters make, one by one at either bound while the others are in the middle.
+void check_bounds(const CalibrationPlan& plan, const std::string& file, input::Problems& problems) {
+    const std::size_t n = plan.space.size();
+    std::set<std::string> said;
+    for (std::size_t k = 0; k < 2 * n + 1; ++k) {
+        std::vector<double> u(n, 0.5);
+        std::string where = "all parameters in the middle";
+        std::string path = "/parameters";
+        if (k > 0) {
+            u[(k - 1) / 2] = k % 2 == 1 ? 0.0 : 1.0;
+            path = fmt::format("/parameters/{}/{}", (k - 1) / 2, k % 2 == 1 ? "low" : "high");
+            where =
+                fmt::format("{} at its {} bound, the others in the middle", plan.space[(k - 1) / 2].name, k % 2 == 1 ? "lower" : "upper");
+        }
+        for (const auto& test : plan.tests) {
+            Json deck = test.deck;
+            plan.space.apply(deck, plan.space.values(u));
+            try {
+                read_deck(deck, file);
+            } catch (const input::InputError& error) {
+                for (const auto& p : error.problems) {
+                    if (said.insert(p.path + p.expected).second) {
+                        problems.push_back({file, path, fmt::format("{}: {} is {}", where, p.path, p.found), p.expected,
+                                            p.suggestion.empty() ? "give other bounds; \"times\" keeps values in order" : p.suggestion});
+                    }
+                }
+            }
+        }
+    }
+}
+
+} // namespace
+
+CalibrationPlan read_calibration(const std::string& file) {
+    CalibrationPlan plan;
+    plan.source = file;
+    Json json = input::load_json(file);
+    std::string folder = file;
+    if (json.is_object() && json.contains(manifest_mark)) {
+        folder = json.value("input_file", file);
+        json = json.value("input", Json::object());
+    }
+    plan.written = json;
+    input::Problems problems;
+    plan.tests = take_tests(json, folder, problems);
+    input::read(json, plan.input, file, "", problems);
+    auto& in = plan.input;
+    std::vector<Json> decks;
+    for (const auto& test : plan.tests) {
+        decks.push_back(test.deck);
+    }
+    if (in.parameters.empty()) {
+        problems.push_back({file, "/parameters", "no parameters", "at least one", ""});
+    }
+    if (!decks.empty()) {
+        plan.space = ParameterSpace(in.parameters, decks, file, problems);
+    }
+    for (std::size_t k = 0; k < in.targets.size(); ++k) {
+        auto& t = in.targets[k];
+        check_target(t, fmt::format("/targets/{}", k), plan.tests, file, problems);
+        if (t.is_curve()) {
+            t.curve = (std::filesystem::absolute(folder).parent_path() / t.curve).lexically_normal().string();
+        }
+    }
+    if (std::none_of(in.targets.begin(), in.targets.end(), [](const TargetInput& t) { return t.fitted(); })) {
+        problems.push_back({file, "/targets", "nothing to fit", "at least one target with \"use\": \"fit\"", ""});
+    }
+    if (problems.empty()) {
+        check_bounds(plan, file, problems);
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+    return plan;
+}
+
+Json calibration_schema() {
+    Json schema = input::schema(CalibrationInput{});
+    add_tests_to_schema(schema);
+    schema["required"].push_back("targets");
+    return schema;
+}
+
+} // namespace proveta

@@ -1,0 +1,168 @@
+// proveta calibrate
+#include <fmt/format.h>
+#include <omp.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "lab/calibrate/calibrate.hpp"
+#include "lab/calibrate/calibrate_report.hpp"
+#include "lab/cli/commands.hpp"
+#include "lab/provenance.hpp"
+#include "lab/trials/launch.hpp"
+#include "reports/files.hpp"
+#include "reports/html.hpp"
+
+namespace proveta {
+
+namespace {
+
+namespace fs = std::filesystem;
+using input::Json;
+
+struct Arguments : RunArguments {
+    std::string file;
+    bool status = false;
+    bool plan = false;
+    bool collect = false;
+};
+
+// A folder of a calibration goes on where it was; any other must be new or empty.
+void claim(const fs::path& out) {
+    std::error_code error;
+    fs::create_directories(out, error);
+    if (error || (!fs::is_empty(out) && !fs::exists(out / "ledger.jsonl"))) {
+        throw input::InputError({{"--out", "", "\"" + out.string() + "\", " + (error ? error.message() : "which holds other files"),
+                                  "a new or empty folder, or that of a calibration to go on with", ""}});
+    }
+    // Of an earlier end: what is there now is no result of what runs.
+    for (const char* name : {"report.html", "summary.json", "trials.csv", "card.json"}) {
+        fs::remove(out / name);
+    }
+}
+
+void write_manifest(const fs::path& out, const CalibrationPlan& plan, const std::string& typed, const std::string& status) {
+    report::write_json((out / "manifest.json").string(), {{"proveta_calibration_manifest", 1},
+                                                          {"status", status},
+                                                          {"command", typed},
+                                                          {"version", version()},
+                                                          {"input_file", fs::absolute(plan.source).lexically_normal().string()},
+                                                          {"input", plan.written}});
+}
+
+Json state_of(const std::string& phase, const CalibrationOutcome& so_far, std::size_t known) {
+    Json j{{"phase", phase}, {"trials_asked", so_far.trials.size()}, {"trials_in_ledger", known}};
+    const CalibrationTrial* best = nullptr;
+    for (const auto& t : so_far.trials) {
+        if (t.deviations.complete && (best == nullptr || t.deviations.score() < best->deviations.score())) {
+            best = &t;
+        }
+    }
+    j["best_score"] = best != nullptr ? Json(best->deviations.score()) : Json();
+    return j;
+}
+
+int show_status(const fs::path& out) {
+    if (!fs::exists(out / "ledger.jsonl")) {
+        throw input::InputError({{out.string(), "", "no ledger", "the folder of a calibration", "--out DIR"}});
+    }
+    double seconds = 0.0;
+    std::size_t failed = 0;
+    const auto trials = TrialBook::read(out);
+    for (const auto& trial : trials) {
+        bool whole = true;
+        for (const auto& job : trial.jobs) {
+            seconds += job.seconds;
+            whole = whole && job.status == "complete";
+        }
+        failed += whole ? 0 : 1;
+    }
+    fmt::print("{}: {} trials ended, {} of them with a test that failed; {} of computing\n", out.string(), trials.size(), failed,
+               Progress::duration(seconds));
+    std::ifstream in(out / "progress.json");
+    if (const Json state = in ? Json::parse(in, nullptr, false) : Json(); state.is_object()) {
+        fmt::print("phase: {}; best score {}\n", state.value("phase", ""), state["best_score"].dump());
+    }
+    fmt::print("{}\n", fs::exists(out / "card.json") ? "complete: card.json, report.html" : "not at its end yet");
+    return 0;
+}
+
+void write_results(const fs::path& out, const CalibrationPlan& plan, const std::vector<Target>& targets, const CalibrationOutcome& outcome,
+                   const TrialFolders& folders) {
+    const Json card = calibrated_card(plan, targets, outcome, folders);
+    const report::Record record = calibration_record(plan, targets, outcome, folders);
+    report::write_file((out / "trials.csv").string(), report::to_csv(trials_table(plan, targets, outcome, folders)));
+    report::write_file((out / "report.html").string(), report::to_html(record));
+    report::write_json((out / "summary.json").string(), calibration_summary(plan, record, card));
+    report::write_json((out / "card.json").string(), card);
+    fmt::print("{}: {}\n", record.title, record.stopped_by);
+    for (const auto& table : record.overview) {
+        fmt::print("{}\n", table.title);
+        for (const auto& row : table.rows) {
+            fmt::print("  {:<36}", row.front());
+            for (std::size_t k = 1; k < row.size(); ++k) {
+                fmt::print(" {:>16}", row[k]);
+            }
+            fmt::print("\n");
+        }
+    }
+    for (const auto& s : record.results) {
+        fmt::print("{}: {:.3f}\n", s.title, s.value.value_or(0.0));
+    }
+    fmt::print("card in {}, report in {}\n", (out / "card.json").string(), (out / "report.html").string());
+}
+
+int carry_out_calibration(const Arguments& a, const std::string& typed) {
+    const fs::path out = a.out.empty() ? fs::path("results") / fs::path(a.file).stem() : fs::path(a.out);
+    if (a.status) {
+        return show_status(out);
+    }
+    use_threads(a.threads);
+    const CalibrationPlan plan = read_calibration(a.file);
+    const auto targets = make_targets(plan);
+    claim(out);
+    catch_interrupts();
+    const bool elsewhere = a.plan || a.collect;
+    TrialBook book(out, elsewhere ? BookMode::plan : BookMode::run, static_cast<std::size_t>(omp_get_max_threads()), a.quiet);
+    write_manifest(out, plan, typed, "running");
+    if (book.known() > 0 && !a.quiet) {
+        spdlog::info("{} trials are in the ledger and will not be repeated", book.known());
+    }
+    try {
+        const auto outcome = calibrate(plan, targets, book, [&](const std::string& phase, const CalibrationOutcome& so_far) {
+            report::write_json((out / "progress.json").string(), state_of(phase, so_far, book.known()));
+        });
+        write_results(out, plan, targets, outcome, book.folders());
+        write_manifest(out, plan, typed, "complete");
+        return 0;
+    } catch (const TrialsPlanned& planned) {
+        fmt::print("{}", write_plan(out, planned.folders));
+        return 0;
+    } catch (const TrialsInterrupted&) {
+        write_manifest(out, plan, typed, "interrupted");
+        spdlog::warn("interrupted; the same command goes on from {} trials", book.known());
+        return exit_interrupted;
+    }
+}
+
+} // namespace
+
+void add_calibrate(CLI::App& app, const std::string& typed, Command& chosen) {
+    auto a = std::make_shared<Arguments>();
+    auto* command = app.add_subcommand("calibrate", "find the card that reproduces measured results and curves, and how sure it is");
+    command->add_option("calibration", a->file, "calibration (JSON), or the manifest.json of an earlier one")->required();
+    command->add_option("--threads", a->threads, "number of threads, of all trials together; results do not depend on it")
+        ->check(CLI::Range(1, 1024));
+    add_output(*command, *a, "results/NAME of the calibration");
+    auto* status = command->add_flag("--status", a->status, "say how far it is; may be asked while it runs");
+    auto* plan = command->add_flag("--plan", a->plan, "write the next trials for a cluster instead of carrying them out");
+    auto* collect = command->add_flag("--collect", a->collect, "take in what a cluster has done, and plan the next trials or end");
+    status->excludes(plan)->excludes(collect);
+    plan->excludes(collect);
+    command->callback([a, typed, &chosen] { chosen = [a, typed] { return carry_out_calibration(*a, typed); }; });
+}
+
+} // namespace proveta
