@@ -36,10 +36,11 @@ class TemporaryFolder {
     /// The path of a file in it; with a text, the file is written.
     [[nodiscard]] std::string file(const std::string& name, const std::string& text = "") const {
         if (!text.empty()) {
-            std::ofstream(path_ / name) << text;
+            write(name, text);
         }
         return (path_ / name).string();
     }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
 
   private:
     std::filesystem::path path_;

@@ -39,6 +39,19 @@ std::vector<Point> propose_globally(const std::vector<Sample>& samples, std::siz
     return out;
 }
 
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
+
+std::vector<Point> propose_at_random(std::size_t dimensions, std::size_t count, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::vector<Point> out(count, Point(dimensions));
+    for (auto& point : out) {
+        for (double& u : point) {
+            u = uniform(random);
+        }
+    }
+    return out;
+}
+
 // Distance from the best within which so many trials lie that a model can be told from them.
 double radius_around(const Point& best, const std::vector<Sample>& samples) {
     std::vector<double> distances;
@@ -78,7 +91,7 @@ void keep_apart(std::vector<Point>& points, const std::vector<Sample>& samples, 
         };
         for (double aside = 0.02; repeats(); aside *= 1.5) {
             for (double& u : points[k]) {
-                u = std::clamp(u + aside * (2.0 * static_cast<double>(random() >> 11) * 0x1.0p-53 - 1.0), 0.0, 1.0);
+                u = std::clamp(u + aside * (2.0 * uniform(random) - 1.0), 0.0, 1.0);
             }
         }
     }
@@ -98,6 +111,9 @@ std::size_t best_sample(const std::vector<Sample>& samples) {
 
 std::vector<Point> propose(const std::vector<Sample>& samples, std::size_t dimensions, std::size_t count, const std::string& method,
                            std::uint64_t seed) {
+    if (samples.empty()) {
+        return propose_at_random(dimensions, count, seed);
+    }
     const auto complete =
         static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [](const Sample& s) { return s.complete; }));
     const bool ready = complete >= dimensions + 2; // for models

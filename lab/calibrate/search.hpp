@@ -10,9 +10,9 @@
 namespace proveta {
 
 /// Points of the unit cube to try next, `count` of them. A function of the trials so far and of the seed alone, so that a search repeats
-/// itself whatever order its trials end in, and goes on from where it was. method, as in `SearchInput`: "global": dlib's search (upper
-/// bounds by Lipschitz constants in turn with a trust region: Malherbe and Vayatis, ICML 2017; King's LIPO-TR), on log(1 + score^2), told
-/// all earlier trials; "models": `ResidualModel` around the best trial; "mixed": half and half.
+/// itself whatever order its trials end in, and goes on from where it was. The first are random. method, as in `SearchInput`: "global":
+/// dlib's search (upper bounds by Lipschitz constants in turn with a trust region: Malherbe and Vayatis, ICML 2017; King's LIPO-TR), on
+/// log(1 + score^2), told all earlier trials; "models": `ResidualModel` around the best trial; "mixed": half and half.
 std::vector<std::vector<double>> propose(const std::vector<Sample>& samples, std::size_t dimensions, std::size_t count,
                                          const std::string& method, std::uint64_t seed);
 
