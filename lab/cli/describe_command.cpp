@@ -9,6 +9,7 @@
 #include "lab/cli/commands.hpp"
 #include "lab/deck.hpp"
 #include "lab/protocols/registry.hpp"
+#include "lab/sweep/sweep.hpp"
 
 namespace proveta {
 
@@ -147,13 +148,15 @@ void add_describe(CLI::App& app, Command& chosen) {
 
 void add_schema(CLI::App& app, Command& chosen) {
     auto kind = std::make_shared<std::string>("deck");
-    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks or material cards");
-    command->add_option("kind", *kind, "deck or card")->check(CLI::IsMember({"deck", "card"}));
+    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks, material cards or sweeps");
+    command->add_option("kind", *kind, "deck, card or sweep")->check(CLI::IsMember({"deck", "card", "sweep"}));
     command->callback([kind, &chosen] {
         chosen = [kind] {
             input::Json schema;
             if (*kind == "deck") {
                 schema = deck_schema();
+            } else if (*kind == "sweep") {
+                schema = sweep_schema();
             } else {
                 schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Proveta material card"}};
                 MaterialInput material;
