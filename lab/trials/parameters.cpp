@@ -8,6 +8,7 @@
 #include "core/input/describe.hpp"
 #include "core/input/suggest.hpp"
 #include "lab/deck.hpp"
+#include "lab/protocols/registry.hpp"
 
 namespace proveta {
 
@@ -44,8 +45,8 @@ void collect(const Json& json, const std::string& prefix, std::vector<std::strin
     }
 }
 
-// SI unit of a deck's value, by what the deck declares.
-std::string unit_of(const std::string& path) {
+// SI unit of a value, by what a deck of the test declares.
+std::string unit_of(const std::string& path, const std::string& test) {
     std::string declared = path;
     const auto dot = declared.rfind('.');
     if (dot != std::string::npos && declared.find_first_not_of("0123456789", dot + 1) == std::string::npos) {
@@ -53,6 +54,7 @@ std::string unit_of(const std::string& path) {
     }
     input::Describer describer;
     Deck deck;
+    deck.protocol = make_protocol(test);
     declare(describer, deck);
     for (const auto& p : describer.parameters()) {
         if (p.path == declared) {
@@ -113,9 +115,9 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vec
         if (std::find(paths.begin(), paths.end(), p.path) != paths.end()) {
             complain("/path", "\"" + p.path + "\" again", "a value that no other parameter sets");
         }
-        const bool there =
-            std::any_of(decks.begin(), decks.end(), [&](const Json& d) { return has(d, p.path) && may_be_number(d[pointer_of(p.path)]); });
-        if (!there) {
+        const auto with =
+            std::find_if(decks.begin(), decks.end(), [&](const Json& d) { return has(d, p.path) && may_be_number(d[pointer_of(p.path)]); });
+        if (with == decks.end()) {
             const std::string best = input::nearest(p.path, known);
             complain("/path", "\"" + p.path + "\"", "the dotted path of a number in the decks",
                      best.empty() ? "" : "did you mean \"" + best + "\"?");
@@ -139,7 +141,7 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vec
                 parent_.back() = static_cast<std::size_t>(parent - names.begin());
             }
         }
-        p.unit = unit_of(p.path);
+        p.unit = with == decks.end() ? "" : unit_of(p.path, (*with)["test"]);
         names.push_back(p.name);
         paths.push_back(p.path);
     }
