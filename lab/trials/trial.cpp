@@ -51,7 +51,7 @@ void run(const fs::path& folder, JobResult& result) {
     if (result.status != "complete") {
         return;
     }
-    const report::Record record = make_record(deck, bench, data, {}, result.status);
+    const report::Record record = make_record(deck, bench, data, acoustic_events(data.events, acoustic_rule(bench)), result.status);
     for (const auto& scalar : record.results) {
         if (scalar.value) {
             result.results[scalar.name] = *scalar.value;
