@@ -9,15 +9,15 @@ namespace proveta {
 
 namespace {
 
-// The heading of a column whose name is known, but not its unit: "axial_stress_Pa". Empty when there is none.
-std::string heading_of(const report::Table& curve, const std::string& name) {
-    std::string best;
+// The column of a name, whether its heading has the unit with it or not ("axial_stress_Pa"); null when there is none.
+const report::Column* column_of(const report::Table& curve, const std::string& name) {
+    const report::Column* best = nullptr;
     for (const auto& column : curve.columns) {
         if (column.name == name) {
-            return name;
+            return &column;
         }
-        if (column.name.starts_with(name + "_") && (best.empty() || column.name.size() < best.size())) {
-            best = column.name;
+        if (column.name.starts_with(name + "_") && (best == nullptr || column.name.size() < best->name.size())) {
+            best = &column;
         }
     }
     return best;
@@ -49,16 +49,18 @@ void read_curves(TestCurves& curves, const PlotSpec& spec, const SweepTable& tab
                 continue;
             }
             const report::Table read = job_curve(folders.trial(trial.key) / job.name);
-            curves.x.name = heading_of(read, spec.curves.front().x);
-            curves.y.name = heading_of(read, spec.curves.front().y);
-            good = !curves.x.name.empty() && !curves.y.name.empty();
+            const report::Column* x = column_of(read, spec.curves.front().x);
+            const report::Column* y = column_of(read, spec.curves.front().y);
+            good = x != nullptr && y != nullptr;
             if (good) {
-                SampledCurve curve{read.values(curves.x.name), read.values(curves.y.name)};
-                for (double& x : curve.x) {
-                    x *= std::copysign(1.0, spec.x_scale);
+                curves.x = x->heading();
+                curves.y = y->heading();
+                SampledCurve curve{read.values(x->name), read.values(y->name)};
+                for (double& v : curve.x) {
+                    v *= std::copysign(1.0, spec.x_scale);
                 }
-                for (double& y : curve.y) {
-                    y *= std::copysign(1.0, spec.y_scale);
+                for (double& v : curve.y) {
+                    v *= std::copysign(1.0, spec.y_scale);
                 }
                 jobs.push_back(std::move(curve));
             }
@@ -96,7 +98,7 @@ report::TextTable curve_rows(const Sweep& sweep, const std::vector<TestCurves>& 
     }
     for (const auto& c : curves) {
         for (std::size_t i = 0; c.sensitivity && i < c.sensitivity->x.size(); ++i) {
-            std::vector<std::string> row{c.test, c.x.name, full(c.sensitivity->x[i]), c.y.name, full(c.sensitivity->mean[i])};
+            std::vector<std::string> row{c.test, c.x, full(c.sensitivity->x[i]), c.y, full(c.sensitivity->mean[i])};
             for (const auto& of_parameter : c.sensitivity->s) {
                 row.push_back(full(of_parameter[i]));
             }

@@ -12,7 +12,7 @@ namespace proveta {
 /// The main curves of one test at all points.
 struct TestCurves {
     std::string test;
-    report::Column x, y; ///< as headings of curve.csv
+    std::string x, y; ///< headings of curve.csv
     PlotAxes axes;
     std::vector<SampledCurve> at; ///< a point each, the mean over its seeds; empty where a job failed
     std::optional<CurveSensitivity> sensitivity;

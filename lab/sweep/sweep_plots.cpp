@@ -10,7 +10,7 @@ namespace proveta {
 namespace {
 
 constexpr const char* palette[] = {"#1f4e79", "#c0392b", "#1e7b46", "#b9770e", "#7d3c98", "#0e8a93", "#111111", "#d35f9e"};
-constexpr std::size_t most_curves = 300; // of a plot
+constexpr std::size_t most_curves = 100; // of a plot
 constexpr std::size_t most_lines = 8;    // of a plot that a key tells apart
 
 std::vector<double> own_values(const Sweep& sweep, std::size_t k) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "lab/sweep/sweep_plots.hpp"
@@ -35,28 +36,30 @@ report::TextTable test_table(const Sweep& sweep) {
     return t;
 }
 
-std::string with_mark(const Sweep& sweep, const Sensitivity& s) {
-    if (!std::isfinite(s.value)) {
-        return "";
-    }
-    return fmt::format("{:.2f}{}", s.value, !sweep.trajectories() && std::fabs(s.value) > s.bound ? " *" : "");
-}
-
 report::TextTable influence_table(const Sweep& sweep, const SweepOutcome& o) {
-    report::TextTable t{sweep.trajectories() ? "Influence: Morris' mu* over the largest of the result's"
-                                             : "Influence: Spearman's rank correlation (* beyond what comes by chance once in twenty)",
-                        {{"Result"}}};
+    report::TextTable t{sweep.trajectories()
+                            ? "Influence on all results: Morris' mu* over the largest of the result's"
+                            : fmt::format("Influence on all results: Spearman's rank correlation, beyond +-{:.2f} by chance "
+                                          "once in twenty",
+                                          significant_correlation(o.table.trials.size() - o.table.failed())),
+                        {{"Result", "Unit", "Least", "Most"}}};
     for (std::size_t k = 0; k < sweep.space.size(); ++k) {
         t.rows.front().push_back(sweep.space[k].name);
     }
     for (std::size_t c = 0; c < o.table.results.size(); ++c) {
-        std::vector<std::string> row{o.table.results[c].name()};
-        for (const auto& s : o.sensitivities[c]) {
-            row.push_back(with_mark(sweep, s));
+        const auto& column = o.table.results[c];
+        std::vector<double> values;
+        std::copy_if(column.mean.begin(), column.mean.end(), std::back_inserter(values), [](double v) { return std::isfinite(v); });
+        if (values.empty()) {
+            continue;
         }
-        if (std::any_of(row.begin() + 1, row.end(), [](const auto& cell) { return !cell.empty(); })) {
-            t.rows.push_back(std::move(row));
+        const auto [least, most] = std::minmax_element(values.begin(), values.end());
+        const Shown s(column.unit, values);
+        std::vector<std::string> row{column.name(), s.unit, s.text(*least), s.text(*most)};
+        for (const auto& of_parameter : o.sensitivities[c]) {
+            row.push_back(std::isfinite(of_parameter.value) ? fmt::format("{:.2f}", of_parameter.value) : "");
         }
+        t.rows.push_back(std::move(row));
     }
     return t;
 }
@@ -137,7 +140,7 @@ std::vector<std::size_t> main_results(const Sweep& sweep, const SweepTable& tabl
         return out;
     }
     for (const std::string name : usual) {
-        take([&](const std::string& result) { return result == name || result.ends_with("_" + name); });
+        take([&](const std::string& result) { return result == name || (name == "strength" && result.ends_with("_strength")); });
     }
     if (out.empty()) {
         take([](const std::string&) { return true; });
@@ -179,12 +182,11 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
         r.warnings.emplace_back("Fewer than ten points: rank correlations say little.");
     }
     r.overview = {parameter_table(sweep), test_table(sweep)};
-    for (const auto& curves : o.curves) {
-        if (curves.sensitivity) {
-            r.plots.push_back(along_curve_plot(sweep, curves));
+    for (const auto& test : sweep.tests) { // what belongs to a test stands together
+        const auto curves = std::find_if(o.curves.begin(), o.curves.end(), [&](const auto& c) { return c.test == test.name; });
+        if (curves != o.curves.end() && curves->sensitivity) {
+            r.plots.push_back(along_curve_plot(sweep, *curves));
         }
-    }
-    for (const auto& test : sweep.tests) {
         const auto columns = main_results(sweep, o.table, test.name);
         if (!columns.empty()) {
             r.plots.push_back(influence_plot(sweep, o, test.name, columns));
@@ -192,9 +194,9 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
         for (std::size_t j = 0; j < std::min<std::size_t>(columns.size(), 2); ++j) {
             r.plots.push_back(scatter_plot(sweep, o, columns[j]));
         }
-    }
-    for (const auto& curves : o.curves) {
-        r.plots.push_back(all_curves_plot(curves));
+        if (curves != o.curves.end()) {
+            r.plots.push_back(all_curves_plot(*curves));
+        }
     }
     r.tables = {influence_table(sweep, o)};
     if (sweep.trajectories()) {

@@ -142,6 +142,18 @@ report::TextTable failures_of(const SweepTable& table) {
     return t;
 }
 
+namespace {
+
+// HDF5 takes a slash for a folder: "J/m2" becomes "J_per_m2".
+std::string dataset(std::string heading) {
+    for (auto at = heading.find('/'); at != std::string::npos; at = heading.find('/')) {
+        heading.replace(at, 1, "_per_");
+    }
+    return heading;
+}
+
+} // namespace
+
 void write_hdf5(const Sweep& sweep, const SweepTable& table, const std::string& file) {
     const std::string partial = file + ".partial";
     Hdf5File out(partial, Hdf5File::Mode::create);
@@ -161,12 +173,12 @@ void write_hdf5(const Sweep& sweep, const SweepTable& table, const std::string& 
         for (const auto& trial : table.trials) {
             values.push_back(trial.values[k]);
         }
-        out.put(parameter_heading(sweep.space[k]), values);
+        out.put(dataset(parameter_heading(sweep.space[k])), values);
     }
     for (const auto& column : table.results) {
-        out.put(with_unit(column.name(), column.unit), column.mean);
+        out.put(dataset(with_unit(column.name(), column.unit)), column.mean);
         if (!column.deviation.empty()) {
-            out.put(with_unit(column.name() + "_deviation", column.unit), column.deviation);
+            out.put(dataset(with_unit(column.name() + "_deviation", column.unit)), column.deviation);
         }
     }
     out.close();

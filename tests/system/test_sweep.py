@@ -158,11 +158,11 @@ class Sweep(Case):
         for says in ["/points", "/dsign", 'did you mean "design"', "/results", "/tests/0/name", "/tests/0/deck/material/tauf", "/parameters/0/path",
                      'did you mean "material.tau_f"', "low below high"]:
             self.assertIn(says, done.stderr)
-        beyond = self.file(name="beyond.json", parameters=[{"path": "material.tau_f", "low": -1e6, "high": 2e6}, {"path": "material.mu_s", "low": -1, "high": 0.5}])
+        beyond = self.file(name="beyond.json", parameters=[{"path": "material.tau_f", "low": -1e6, "high": 2e6}, {"path": "material.mu_s", "low": -0.1, "high": 0.5}])
         done = self.run_program("sweep", beyond, "--out", "out")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("tau_f = -1e+06", done.stderr)
-        self.assertIn("mu_s = -1", done.stderr)
+        self.assertIn("mu_s = -0.1", done.stderr)
         many = self.file(name="many.json", design="grid", parameters=[{**PARAMETERS[0], "levels": 400}, {**PARAMETERS[1], "levels": 400}])
         done = self.run_program("sweep", many, "--out", "out")
         self.assertIn("160000 points", done.stderr)
