@@ -71,7 +71,7 @@ report::Plot along_curve_plot(const Sweep& sweep, const TestCurves& curves) {
         fmt::format("{}: who shapes what part of the curve. {} of {} at each {} with the parameters, over {} points, as far as "
                     "all curves go; grey: the mean curve over its peak{}.",
                     curves.test, morris ? "Elementary effects (mu* over the largest)" : "Rank correlation", curves.axes.y_title,
-                    curves.axes.x_title, s.n, morris ? "" : "; dotted: what chance stays within nineteen times in twenty"),
+                    curves.axes.x_title, s.n, morris ? "" : "; dashed: what chance stays within nineteen times in twenty"),
         curves.axes.x_title,
         morris ? "mu* over the largest" : "rank correlation",
         {},

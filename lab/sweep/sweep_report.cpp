@@ -173,7 +173,8 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
         hasty += o.table.quasi_static(i) ? 0 : 1;
     }
     if (hasty > 0) {
-        r.warnings.push_back(fmt::format("At {} of {} points a test was not loaded quasi-statically.", hasty, n));
+        r.warnings.push_back(
+            fmt::format("At {} of {} points a test was not loaded quasi-statically (column quasi_static of table.csv).", hasty, n));
     }
     for (auto& warning : unknown_results(sweep, o.table)) {
         r.warnings.push_back(std::move(warning));
