@@ -69,7 +69,9 @@ std::string sweep_text(const Sweep& sweep, const SweepOutcome& o, const report::
                     parts.push_back(fmt::format("{} {:.2f}", sweep.space[k].name, o.sensitivities[c][k].value));
                 }
             }
-            out += fmt::format("  {:<28} {}\n", o.table.results[c].name(), fmt::join(parts, ", "));
+            if (!parts.empty()) {
+                out += fmt::format("  {:<28} {}\n", o.table.results[c].name(), fmt::join(parts, ", "));
+            }
         }
     }
     for (const auto& w : record.warnings) {

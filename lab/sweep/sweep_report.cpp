@@ -188,7 +188,10 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
         if (curves != o.curves.end() && curves->sensitivity) {
             r.plots.push_back(along_curve_plot(sweep, *curves));
         }
-        const auto columns = main_results(sweep, o.table, test.name);
+        auto columns = main_results(sweep, o.table, test.name);
+        std::erase_if(columns, [&](std::size_t c) { // what does not vary, or at too few points
+            return std::none_of(o.sensitivities[c].begin(), o.sensitivities[c].end(), [](const auto& s) { return std::isfinite(s.value); });
+        });
         if (!columns.empty()) {
             r.plots.push_back(influence_plot(sweep, o, test.name, columns));
         }

@@ -315,6 +315,20 @@ TEST_CASE("table, sensitivities and page of a sweep") {
     CHECK(sweep_summary(sweep, o, record)["failed"] == 1);
 }
 
+TEST_CASE("a trial whose specimen cannot be made fails with the reason, and by itself") {
+    const TemporaryFolder folder;
+    const Sweep sweep = read_sweep(folder.file("s.json", sweep_text(R"(, "points": 1)")));
+    Trial trial = trials_of(sweep).front();
+    trial.jobs[0].deck["specimen"]["spheres"] = -5; // as no bound of a parameter has shown
+    const TrialFolders folders(folder.path());
+    folders.write(trial);
+    REQUIRE(run_job(folders.trial(trial.key) / "press"));
+    const auto done = folders.finished(trial.key);
+    REQUIRE(done.size() == 1);
+    CHECK(done[0].status == "failed");
+    CHECK(done[0].reason.find("/specimen/spheres") != std::string::npos);
+}
+
 TEST_CASE("a plot of rows names them instead of a y axis") {
     report::Plot plot{"t", "influence", "", {{"", {0.0, 0.5}, {-1.0, -1.0}}, {"", {0.0, -0.5}, {-2.0, -2.0}}}, {}};
     plot.rows = {"first & best", "second"};
