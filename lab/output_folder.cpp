@@ -33,7 +33,8 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     if (access(path.c_str(), W_OK | X_OK) != 0) {
         refuse("which cannot be written", "a folder that can be written");
     }
-    if (!fs::is_empty(path, error) && !fs::exists(path / "manifest.json", error)) {
+    const bool earlier = fs::exists(path / "manifest.json", error) || fs::exists(path / "ledger.jsonl", error);
+    if (!fs::is_empty(path, error) && !earlier) {
         refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
     }
 }
@@ -75,7 +76,8 @@ void OutputFolder::begin() {
         fs::remove_all(member);
     }
     for (const char* name : {"report.html", "summary.json", "manifest.json", "curve.csv", "events.csv", "acoustic.csv", "energy.csv",
-                             "checkpoint.h5", "series.pvd", "series.csv", "mean_curves", "fields"}) {
+                             "checkpoint.h5", "series.pvd", "series.csv", "mean_curves", "fields", "table.csv", "table.h5", "failures.csv",
+                             "sensitivity.csv", "curve_sensitivity.csv"}) {
         fs::remove_all(path_ / name);
     }
     fs::create_directories(path_); // a series that was cleared may have held it

@@ -16,7 +16,8 @@ class OutputFolder {
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    /// Clears an earlier result, a series with its members, and keeps the folder.
+    /// Clears an earlier result, a series with its members, and keeps the folder. Trials and their ledger stay: they answer only the
+    /// question that they were asked.
     void begin();
 
     [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }

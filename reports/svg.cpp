@@ -122,8 +122,12 @@ std::string shade(double t) {
 
 std::string to_svg(const Plot& plot) {
     constexpr double width = 640;
-    double height = 380;
-    Frame frame{66, 14, width - 16, height - 48};
+    double height = plot.rows.empty() ? 380 : 110 + 36 * static_cast<double>(plot.rows.size());
+    double left = 66;
+    for (const auto& row : plot.rows) {
+        left = std::max(left, 24 + 6.6 * static_cast<double>(row.size()));
+    }
+    Frame frame{left, 14, width - 16, height - 48};
     constexpr double none = std::numeric_limits<double>::infinity();
     double x0 = plot.x_from_zero ? 0.0 : none;
     double x1 = plot.x_from_zero ? 0.0 : -none;
@@ -138,7 +142,11 @@ std::string to_svg(const Plot& plot) {
         }
     }
     const Axis ax = x0 <= x1 ? Axis(x0, x1) : Axis(0.0, 1.0);
-    const Axis ay(y0, y1);
+    Axis ay(y0, y1);
+    if (!plot.rows.empty()) {
+        ay.high = -0.3;
+        ay.low = -0.7 - static_cast<double>(plot.rows.size());
+    }
     if (plot.equal_scale) {
         // The axis that needs less room gives up the rest of it.
         const double across = (ax.high - ax.low) / (frame.right - frame.left);
@@ -161,7 +169,13 @@ std::string to_svg(const Plot& plot) {
                            "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" fill=\"#333\">{4:.6g}</text>\n",
                            px(v), py(ay.low), py(ay.high), py(ay.low) + 16, std::fabs(v) < 1e-9 * ax.tick ? 0.0 : v);
     }
-    for (double v = ay.low; v <= ay.high + 0.5 * ay.tick; v += ay.tick) {
+    for (std::size_t k = 0; k < plot.rows.size(); ++k) {
+        const double y = py(-1.0 - static_cast<double>(k));
+        out += fmt::format("<line x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
+                           "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5}</text>\n",
+                           y, px(ax.low), px(ax.high), px(ax.low) - 6, y + 4, escape(plot.rows[k]));
+    }
+    for (double v = ay.low; plot.rows.empty() && v <= ay.high + 0.5 * ay.tick; v += ay.tick) {
         out += fmt::format("<line x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
                            "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5:.6g}</text>\n",
                            py(v), px(ax.low), px(ax.high), px(ax.low) - 6, py(v) + 4, std::fabs(v) < 1e-9 * ay.tick ? 0.0 : v);

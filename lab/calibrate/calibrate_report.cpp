@@ -24,8 +24,16 @@ std::string shown(double value, const std::string& unit) {
     return fmt::format("{:.4g}{}{}", r.value.value_or(value), r.unit.empty() ? "" : " ", r.unit);
 }
 
-// Results that are stresses are the only ones that targets name without a unit of their own.
-std::string shown_result(double value) { return std::fabs(value) > 1e3 ? shown(value, "Pa") : fmt::format("{:.4g}", value); }
+// A result in the unit that its jobs give it.
+std::string shown_result(double value, const Target& target, const TrialResult& trial) {
+    for (const auto& job : trial.jobs) {
+        const auto unit = job.units.find(target.input.result);
+        if (job.test == target.input.test && unit != job.units.end()) {
+            return shown(value, unit->second);
+        }
+    }
+    return shown(value, "");
+}
 
 const TrialResult& result_for(const Target& target, const std::vector<Target>& targets, const CalibrationOutcome& outcome) {
     for (const auto& t : targets) {
@@ -43,12 +51,13 @@ TextTable targets_table(const std::vector<Target>& targets, const CalibrationOut
         if (t.input.fitted() != fitted) {
             continue;
         }
-        const Comparison c = compare(t, result_for(t, targets, outcome), folders);
+        const TrialResult& trial = result_for(t, targets, outcome);
+        const Comparison c = compare(t, trial, folders);
         const bool curve = t.input.is_curve();
-        table.rows.push_back({t.input.title(), t.input.kind, curve ? "curve" : shown_result(t.input.value),
+        table.rows.push_back({t.input.title(), t.input.kind, curve ? "curve" : shown_result(t.input.value, t, trial),
                               !c.found ? "not determined"
                               : curve  ? "curve"
-                                       : shown_result(c.value),
+                                       : shown_result(c.value, t, trial),
                               c.found ? fmt::format("{:+.1f} %{}", 100.0 * c.distance, curve ? " rms" : "") : "",
                               fmt::format("{:.3g} %", 100.0 * t.input.tolerance),
                               c.found && std::fabs(c.distance) <= t.input.tolerance ? "yes" : "no"});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -29,13 +30,16 @@ double chebyshev(const std::vector<double>& a, const std::vector<double>& b) {
 double Sample::score() const { return std::sqrt(std::inner_product(deviation.begin(), deviation.end(), deviation.begin(), 0.0)); }
 
 ResidualModel::ResidualModel(const std::vector<Sample>& samples, std::vector<double> centre, double radius)
-    : centre_(std::move(centre)), radius_(radius) {
+    : samples_(samples), centre_(std::move(centre)), radius_(radius) {
     const auto terms = features(centre_).size();
     const auto deviations = static_cast<Eigen::Index>(samples.front().deviation.size());
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(terms, deviations);
     double weights = 0.0;
     for (const auto& s : samples) {
+        if (!s.complete) {
+            continue;
+        }
         const Eigen::VectorXd f = features(s.u);
         const double far = f.segment(1, static_cast<Eigen::Index>(centre_.size())).squaredNorm() / static_cast<double>(centre_.size());
         const double weight = 1.0 / ((1.0 + far) * (1.0 + far));
@@ -66,6 +70,22 @@ Eigen::VectorXd ResidualModel::features(const std::vector<double>& u) const {
     return f;
 }
 
+bool ResidualModel::promising(const std::vector<double>& u) const {
+    double least = std::numeric_limits<double>::infinity();
+    bool complete = true;
+    for (const auto& s : samples_) {
+        double square = 0.0;
+        for (std::size_t k = 0; k < u.size(); ++k) {
+            square += (u[k] - s.u[k]) * (u[k] - s.u[k]);
+        }
+        if (square < least) {
+            least = square;
+            complete = s.complete;
+        }
+    }
+    return complete;
+}
+
 double ResidualModel::square(const std::vector<double>& u) const { return (coefficients_.transpose() * features(u)).squaredNorm(); }
 
 std::vector<double> ResidualModel::best(double reach, std::uint64_t seed) const {
@@ -83,7 +103,7 @@ std::vector<double> ResidualModel::best(double reach, std::uint64_t seed) const 
         for (std::size_t d = 0; d < u.size(); ++d) {
             u[d] = std::lerp(low[d], high[d], uniform(random));
         }
-        if (const double here = square(u); here < least) {
+        if (const double here = square(u); here < least && promising(u)) {
             least = here;
             best = u;
         }
@@ -96,7 +116,7 @@ std::vector<double> ResidualModel::best(double reach, std::uint64_t seed) const 
                 for (const double sign : {-1.0, 1.0}) {
                     u = best;
                     u[d] = std::clamp(u[d] + sign * step, low[d], high[d]);
-                    if (const double here = square(u); here < least) {
+                    if (const double here = square(u); here < least && promising(u)) {
                         least = here;
                         best = u;
                         moved = true;

@@ -21,17 +21,20 @@ struct Sample {
 /// model of the sum does not (Gauss-Newton against Newton); it needs no more trials than there are parameters to begin with.
 class ResidualModel {
   public:
-    /// samples: complete ones; at least two. radius: in the unit cube.
+    /// samples: at least two complete ones; those that are not tell where none is to be expected. radius: in the unit cube.
     ResidualModel(const std::vector<Sample>& samples, std::vector<double> centre, double radius);
 
     /// Square of the score expected at u.
     [[nodiscard]] double square(const std::vector<double>& u) const;
-    /// The least expected score within `reach` of the centre along each axis, inside the cube. seed: of its random starts.
+    /// The least expected score within `reach` of the centre along each axis, inside the cube, where the nearest trial is a complete one.
+    /// seed: of its random starts.
     [[nodiscard]] std::vector<double> best(double reach, std::uint64_t seed) const;
 
   private:
     [[nodiscard]] Eigen::VectorXd features(const std::vector<double>& u) const;
+    [[nodiscard]] bool promising(const std::vector<double>& u) const;
 
+    const std::vector<Sample>& samples_;
     std::vector<double> centre_;
     double radius_;
     Eigen::MatrixXd coefficients_; // features x deviations

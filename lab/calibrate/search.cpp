@@ -74,7 +74,7 @@ std::vector<Point> propose_by_models(const std::vector<Sample>& samples, std::si
         // right about what is around the best.
         const bool wide = k % 2 == 0;
         const double radius = wide ? wide_radius : near;
-        const ResidualModel model(complete, centre, radius);
+        const ResidualModel model(samples, centre, radius);
         out.push_back(model.best((wide ? 2.0 : 1.0) * radius / static_cast<double>(1 + k / 2), seed + k));
     }
     return out;

@@ -21,6 +21,7 @@ void add_specimen(CLI::App& app, Command& chosen);
 void add_elastic(CLI::App& app, Command& chosen);
 void add_study(CLI::App& app, const std::string& typed, Command& chosen);
 void add_calibrate(CLI::App& app, const std::string& typed, Command& chosen);
+void add_sweep(CLI::App& app, const std::string& typed, Command& chosen);
 void add_trial(CLI::App& app, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
 void add_bench(CLI::App& app, Command& chosen);
@@ -32,6 +33,9 @@ struct RunArguments {
     int threads = 0;
     bool quiet = false;
 };
+
+/// Adds --threads.
+void add_threads(CLI::App& command, RunArguments& a);
 
 /// Adds --set and --threads.
 void add_settings(CLI::App& command, RunArguments& a);

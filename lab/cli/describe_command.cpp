@@ -10,6 +10,7 @@
 #include "lab/cli/commands.hpp"
 #include "lab/deck.hpp"
 #include "lab/protocols/registry.hpp"
+#include "lab/sweep/sweep.hpp"
 
 namespace proveta {
 
@@ -148,8 +149,8 @@ void add_describe(CLI::App& app, Command& chosen) {
 
 void add_schema(CLI::App& app, Command& chosen) {
     auto kind = std::make_shared<std::string>("deck");
-    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks, material cards or calibrations");
-    command->add_option("kind", *kind, "deck, card or calibration")->check(CLI::IsMember({"deck", "card", "calibration"}));
+    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks, material cards, sweeps or calibrations");
+    command->add_option("kind", *kind, "deck, card, sweep or calibration")->check(CLI::IsMember({"deck", "card", "sweep", "calibration"}));
     command->callback([kind, &chosen] {
         chosen = [kind] {
             input::Json schema;
@@ -158,6 +159,8 @@ void add_schema(CLI::App& app, Command& chosen) {
             } else if (*kind == "calibration") {
                 schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Proveta calibration"}};
                 schema.update(calibration_schema());
+            } else if (*kind == "sweep") {
+                schema = sweep_schema();
             } else {
                 schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Proveta material card"}};
                 MaterialInput material;

@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     proveta::add_elastic(app, chosen);
     proveta::add_study(app, typed, chosen);
     proveta::add_calibrate(app, typed, chosen);
+    proveta::add_sweep(app, typed, chosen);
     proveta::add_trial(app, chosen);
     proveta::add_verify(app, chosen);
     proveta::add_bench(app, chosen);

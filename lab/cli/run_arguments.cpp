@@ -5,10 +5,14 @@
 
 namespace proveta {
 
-void add_settings(CLI::App& command, RunArguments& a) {
-    command.add_option("--set", a.settings, "change a value of the deck: a.b=v (may be given several times)")->allow_extra_args(false);
+void add_threads(CLI::App& command, RunArguments& a) {
     command.add_option("--threads", a.threads, "number of threads, of all tests together; results do not depend on it")
         ->check(CLI::Range(1, 1024));
+}
+
+void add_settings(CLI::App& command, RunArguments& a) {
+    command.add_option("--set", a.settings, "change a value of the deck: a.b=v (may be given several times)")->allow_extra_args(false);
+    add_threads(command, a);
 }
 
 void add_output(CLI::App& command, RunArguments& a, const std::string& folder) {

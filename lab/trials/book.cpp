@@ -39,15 +39,17 @@ std::vector<TrialResult> read_lines(const fs::path& file, std::size_t& good) {
     std::string line;
     good = 0;
     while (std::getline(in, line) && !in.eof()) {
-        const Json json = Json::parse(line, nullptr, false);
-        if (!json.is_object() || !json.contains("trial") || !json.contains("jobs")) {
-            throw input::InputError({{file.string(), "", "a line that is no trial: " + line.substr(0, 60), "a ledger of trials", ""}});
+        try {
+            const Json json = Json::parse(line);
+            TrialResult result{json.at("trial"), json.at("values"), {}};
+            for (const auto& job : json.at("jobs")) {
+                result.jobs.push_back(job_result(job));
+            }
+            out.push_back(std::move(result));
+        } catch (const Json::exception&) {
+            throw input::InputError({{file.string(), "", "a line that is no trial of this version: " + line.substr(0, 60),
+                                      "a ledger of trials", "take a new folder"}});
         }
-        TrialResult result{json["trial"], json["values"], {}};
-        for (const auto& job : json["jobs"]) {
-            result.jobs.push_back(job_result(job));
-        }
-        out.push_back(std::move(result));
         good += line.size() + 1;
     }
     return out;

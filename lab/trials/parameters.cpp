@@ -86,6 +86,9 @@ void declare(input::Visitor& v, Parameter& p) {
              "how values lie between the bounds");
     v.text("times", p.times,
            "name of an earlier parameter: the deck gets that one's value times this one's, so that an order among values holds by itself");
+    v.number(
+        "power", p.power, Unit::none, input::any_number(),
+        "with times: the power that the other one's value is raised to; 2 for a fracture energy over a strength, which fixes a length");
 }
 
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vector<Json>& decks, const std::string& source,
@@ -158,7 +161,7 @@ std::vector<double> ParameterSpace::values(const std::vector<double>& u) const {
 std::vector<double> ParameterSpace::resolved(const std::vector<double>& values) const {
     std::vector<double> out = values;
     for (std::size_t k = 0; k < size(); ++k) {
-        out[k] = parent_[k] == k ? values[k] : values[k] * out[parent_[k]];
+        out[k] = parent_[k] == k ? values[k] : values[k] * std::pow(out[parent_[k]], parameters_[k].power);
     }
     return out;
 }

@@ -17,8 +17,9 @@ struct Parameter {
     std::vector<double> values; ///< the levels of a grid, instead of low and high
     std::int64_t levels = 3;    ///< of a grid between low and high
     std::string scale = "linear";
-    std::string times; ///< name of an earlier parameter that this one is a multiple of
-    std::string unit;  ///< SI unit of what is written into the deck
+    std::string times;  ///< name of an earlier parameter that this one is a multiple of
+    double power = 1.0; ///< of that parameter, in the product
+    std::string unit;   ///< SI unit of what is written into the deck
 
     /// Its value for u, 0 to 1 from low to high, evenly or, with a logarithmic scale, in equal ratios.
     [[nodiscard]] double at(double u) const;

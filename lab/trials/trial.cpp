@@ -51,10 +51,13 @@ void run(const fs::path& folder, JobResult& result) {
     if (result.status != "complete") {
         return;
     }
-    const report::Record record = make_record(deck, bench, data, {}, result.status);
+    const report::Record record = make_record(deck, bench, data, acoustic_events(data.events, acoustic_rule(bench)), result.status);
     for (const auto& scalar : record.results) {
         if (scalar.value) {
             result.results[scalar.name] = *scalar.value;
+            if (!scalar.unit.empty()) {
+                result.units[scalar.name] = scalar.unit;
+            }
         }
     }
     result.quasi_static = record.badges.front().good;
@@ -65,13 +68,13 @@ void run(const fs::path& folder, JobResult& result) {
 } // namespace
 
 Json to_json(const JobResult& r) {
-    return {{"job", r.name},    {"test", r.test},       {"status", r.status},  {"reason", r.reason}, {"quasi_static", r.quasi_static},
-            {"sense", r.sense}, {"seconds", r.seconds}, {"results", r.results}};
+    return {{"job", r.name},    {"test", r.test},       {"status", r.status},   {"reason", r.reason}, {"quasi_static", r.quasi_static},
+            {"sense", r.sense}, {"seconds", r.seconds}, {"results", r.results}, {"units", r.units}};
 }
 
 JobResult job_result(const Json& j) {
-    return {j.at("job"),     j.at("test"),         j.at("status"), j.at("reason"),
-            j.at("results"), j.at("quasi_static"), j.at("sense"),  j.at("seconds")};
+    return {j.at("job"),          j.at("test"),  j.at("status"),  j.at("reason"), j.at("results"),
+            j.at("quasi_static"), j.at("sense"), j.at("seconds"), j.at("units")};
 }
 
 Trial keyed(Trial trial) {
@@ -86,6 +89,23 @@ Trial keyed(Trial trial) {
     return trial;
 }
 
+namespace {
+
+// False when the deck gives no specimen: then its job fails with the reason, and the other trials go on.
+bool make(const Json& deck, const fs::path& file) {
+    std::optional<Specimen> specimen;
+    try {
+        specimen = make_specimen(read_deck(deck, "deck").specimen);
+    } catch (const std::exception&) {
+        return false;
+    }
+    fs::create_directories(file.parent_path());
+    save_specimen(*specimen, file.string());
+    return true;
+}
+
+} // namespace
+
 void TrialFolders::write(const Trial& t) const {
     const fs::path folder = trial(t.key);
     Json list = Json::array();
@@ -94,12 +114,9 @@ void TrialFolders::write(const Trial& t) const {
         if (made(deck)) {
             const std::string name = specimen_key(deck) + ".h5";
             const fs::path file = out_ / "specimens" / name;
-            if (!fs::exists(file)) {
-                fs::create_directories(file.parent_path());
-                const Deck recipe = read_deck(deck, "deck");
-                save_specimen(make_specimen(recipe.specimen), file.string());
+            if (fs::exists(file) || make(deck, file)) {
+                deck["specimen"] = {{"file", "../../../specimens/" + name}};
             }
-            deck["specimen"] = {{"file", "../../../specimens/" + name}};
         }
         fs::create_directories(folder / job.name);
         report::write_json((folder / job.name / "deck.json").string(), deck);

@@ -41,8 +41,9 @@ struct JobResult {
     std::string reason;                    ///< why the test ended, or what failed
     std::map<std::string, double> results; ///< those that could be determined
     bool quasi_static = false;
-    double sense = 1.0;   ///< of the test: 1 where compression is positive, -1 where tension is
-    double seconds = 0.0; ///< wall time on its threads
+    double sense = 1.0;                            ///< of the test: 1 where compression is positive, -1 where tension is
+    double seconds = 0.0;                          ///< wall time on its threads
+    std::map<std::string, std::string> units = {}; ///< SI units of the results that have one
 
     [[nodiscard]] std::optional<double> value(const std::string& result) const {
         const auto found = results.find(result);
@@ -65,7 +66,7 @@ class TrialFolders {
     [[nodiscard]] const std::filesystem::path& out() const { return out_; }
 
     /// Writes the folder of a trial, and the specimens it needs that are not there yet. Deck and specimen are checked against each other
-    /// only when the job runs.
+    /// only when the job runs; a specimen that cannot be made is left to the job too, whose result says why.
     void write(const Trial& trial) const;
     /// The jobs of a trial that are done, in its order.
     [[nodiscard]] std::vector<JobResult> finished(const std::string& key) const;

@@ -68,6 +68,7 @@ struct Plot {
     std::vector<std::pair<double, double>> marks; ///< points to mark
     bool equal_scale = false;                     ///< a unit is as long on both axes
     bool x_from_zero = true;                      ///< the x axis reaches to 0; the y axis always does
+    std::vector<std::string> rows = {};           ///< names of rows at y = -1, -2, ... in place of a y axis with numbers
 };
 
 /// A line (bond, crack) or dot (sphere) of a specimen picture, in the plane of the cut, m.

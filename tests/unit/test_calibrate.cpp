@@ -118,7 +118,8 @@ TEST_CASE("calibration: multiples keep an order, scales and integers are kept") 
     const auto file =
         folder.file("c.json", calibration(R"({"name": "LCS1", "path": "material.lcs.0", "low": "20 MPa", "high": "80 MPa", "scale": "log"},
         {"name": "ratio", "path": "material.lcs.1", "times": "LCS1", "low": 1.5, "high": 2.5},
-        {"path": "material.lcs.2", "times": "ratio", "low": 1.5, "high": 2.5})",
+        {"path": "material.lcs.2", "times": "ratio", "low": 1.5, "high": 2.5},
+        {"name": "G", "path": "material.fracture_energy_shear", "times": "LCS1", "power": 2, "low": 1e-13, "high": 3e-13})",
                                           strength));
     const CalibrationPlan plan = read_calibration(file);
     CHECK(plan.space[0].at(0.5) == Approx(40e6));
@@ -126,9 +127,10 @@ TEST_CASE("calibration: multiples keep an order, scales and integers are kept") 
     CHECK(plan.space[2].name == "material.lcs.2");
     CHECK(plan.space[0].unit == "Pa");
     input::Json deck = plan.tests[0].deck;
-    plan.space.apply(deck, plan.space.values({0.5, 0.5, 1.0}));
+    plan.space.apply(deck, plan.space.values({0.5, 0.5, 1.0, 0.5}));
     CHECK(deck["material"]["lcs"][1].get<double>() == Approx(80e6));
     CHECK(deck["material"]["lcs"][2].get<double>() == Approx(200e6));
+    CHECK(deck["material"]["fracture_energy_shear"].get<double>() == Approx(2e-13 * 40e6 * 40e6));
     CHECK(deck_for(plan.tests[0], 5, 0.5)["specimen"]["spheres"] == 150);
     CHECK(deck_for(plan.tests[0], 5, 0.5)["specimen"]["seed"] == 5);
 }
@@ -245,7 +247,7 @@ TEST_CASE("ledger: half a line of a killed process is cut off, a second process 
     const TemporaryFolder folder;
     const std::string line =
         R"({"trial":"aa","values":[1.5],"jobs":[{"job":"ucs","test":"ucs","status":"complete","reason":"","quasi_static":true,)"
-        R"("sense":1.0,"seconds":2.0,"results":{"strength":3.0}}]})";
+        R"("sense":1.0,"seconds":2.0,"results":{"strength":3.0},"units":{"strength":"Pa"}}]})";
     folder.write("ledger.jsonl", line + "\n" + line.substr(0, 40));
     {
         const TrialBook book(folder.path(), BookMode::run, 1, true);

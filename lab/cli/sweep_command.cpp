@@ -1,0 +1,70 @@
+// proveta sweep
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "lab/cli/commands.hpp"
+#include "lab/progress.hpp"
+#include "lab/sweep/run_sweep.hpp"
+#include "lab/trials/launch.hpp"
+
+namespace proveta {
+
+namespace {
+
+struct Arguments : RunArguments {
+    std::string file;
+    bool plan = false;
+    bool collect = false;
+    bool status = false;
+};
+
+int carry_out_sweep(const Arguments& a, const std::string& typed) {
+    use_threads(a.threads);
+    const Sweep sweep = read_sweep(a.file);
+    SweepOptions options{a.out, typed, a.threads, a.quiet, a.plan || a.collect ? BookMode::plan : BookMode::run};
+    if (options.out.empty()) {
+        options.out = fmt::format("results/{}-sweep", std::filesystem::path(a.file).stem().string());
+    }
+    if (a.status) {
+        fmt::print("{}", sweep_status(sweep, options.out));
+        return 0;
+    }
+    catch_interrupts();
+    try {
+        const RunStatus status = run_sweep(sweep, options);
+        if (status == RunStatus::interrupted) {
+            spdlog::warn("interrupted; what had ended is kept, the same command goes on");
+        }
+        return exit_code(status);
+    } catch (const TrialsPlanned& planned) {
+        if (a.plan) {
+            fmt::print("{}", write_plan(options.out, planned.folders));
+            return 0;
+        }
+        fmt::print("{} of {} points are missing; --status says what is done, --plan lists them anew\n", planned.folders.size(),
+                   sweep.points.size());
+        return exit_calculation;
+    }
+}
+
+} // namespace
+
+void add_sweep(CLI::App& app, const std::string& typed, Command& chosen) {
+    auto a = std::make_shared<Arguments>();
+    auto* command = app.add_subcommand("sweep", "tests at many points of a space of parameters: a table, and what depends on what");
+    command->add_option("file", a->file, "sweep (JSON), or the manifest.json of an earlier one")->required();
+    add_threads(*command, *a);
+    add_output(*command, *a, "results/NAME-sweep");
+    auto* plan = command->add_flag("--plan", a->plan, "carry nothing out: write the trials, and scripts that do it elsewhere");
+    auto* collect =
+        command->add_flag("--collect", a->collect, "take in what was carried out elsewhere; when all is there, table and report");
+    auto* status = command->add_flag("--status", a->status, "how far it is; changes nothing");
+    collect->excludes(plan)->excludes(status);
+    status->excludes(plan);
+    command->callback([a, typed, &chosen] { chosen = [a, typed] { return carry_out_sweep(*a, typed); }; });
+}
+
+} // namespace proveta

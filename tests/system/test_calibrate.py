@@ -1,0 +1,168 @@
+"""The calibration from outside: what it leaves, going on after a kill, carrying trials out elsewhere, bad input. Started as: test_calibrate.py PROVETA"""
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+import case
+
+BRITTLE = {"fracture_energy_tension": 0, "fracture_energy_shear": 0, "elasticity": "as-given"}
+
+
+def calibration(**changes):
+    common = {"specimen": {"diameter": "50 mm", "height": "100 mm", "spheres": 300}, "material": BRITTLE, "output": {"fields": 0}}
+    return {
+        "title": "A <small> calibration",
+        "deck": common,
+        "tests": [
+            {"name": "ucs", "deck": {"test": "ucs", "loading": {"rate": "0.3 m/s"}}, "seeds": [1, 2]},
+            {"name": "p", "deck": {"test": "triaxial", "loading": {"rate": "0.3 m/s", "confining_pressure": "2 MPa"}}},
+        ],
+        "parameters": [
+            {"path": "material.tau_f", "low": "10 MPa", "high": "24 MPa"},
+            {"path": "material.sigma_f", "low": "3 MPa", "high": "8 MPa", "scale": "log"},
+        ],
+        "targets": [
+            {"test": "ucs", "result": "strength", "value": "40 MPa", "source": "made up"},
+            {"test": "ucs", "result": "young_modulus", "value": "30 GPa", "kind": "estimate"},
+            {"test": "p", "result": "strength", "value": "50 MPa", "use": "predict", "tolerance": 0.5},
+        ],
+        "search": {"spheres": 0.5, "trials": 8, "batch": 4},
+        "finish": {"rounds": 2, "trials": 4},
+        "confidence": {"seeds": 3},
+        "card": {"name": "small"},
+        **changes,
+    }
+
+
+class Calibrate(case.Case):
+    def write(self, content, name="c.json"):
+        path = self.folder / name
+        path.write_text(content if isinstance(content, str) else json.dumps(content))
+        return path
+
+    def text(self, path):
+        return (self.folder / path).read_text()
+
+    def ledger(self, folder):
+        return [json.loads(line) for line in self.text(f"{folder}/ledger.jsonl").splitlines()]
+
+    def test_a_card_with_its_evidence_and_all_files(self):
+        done = self.run_program("calibrate", self.write(calibration()), "--out", "r")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        card = json.loads(self.text("r/card.json"))
+        self.assertEqual(card["name"], "small")
+        self.assertEqual(card["status"], "provisional")
+        evidence = card["evidence"]
+        self.assertEqual([t["use"] for t in evidence["targets"]], ["fit", "fit", "predict"])
+        self.assertEqual(evidence["seeds"], {"ucs": [1, 2], "p": [1]})
+        self.assertEqual(evidence["trials"], 8 + 4 + 2)
+        rows = self.rows(self.folder / "r" / "trials.csv")
+        self.assertEqual([r["specimens"] for r in rows], ["small"] * 8 + ["whole"] + ["small"] * 4 + ["whole"])
+        best = min((r for r in rows if r["specimens"] == "whole"), key=lambda r: float(r["score"]))
+        self.assertAlmostEqual(float(best["score"]), evidence["score_in_tolerances"], places=5)
+        self.assertAlmostEqual(float(best["tau_f"]), card["tau_f"], delta=1e-6 * card["tau_f"])
+        page = self.text("r/report.html")
+        for words in ("A &lt;small&gt; calibration", "Predictions of what was left out", "Profiles", "Noise floor", "is an estimate"):
+            self.assertIn(words, page)
+        # The card is a card: a test with it gives what the evidence says, on the first of its specimens.
+        deck = {**calibration()["deck"], **calibration()["tests"][1]["deck"], "material": {"card": "r/card.json"}}
+        self.assertEqual(self.run_program("run", self.write(deck, "again.json"), "--out", "again").returncode, 0)
+        found = json.loads(self.text("again/summary.json"))["results"]["strength"]["value"]
+        self.assertAlmostEqual(found / evidence["targets"][2]["found"], 1.0, places=9)
+        status = self.run_program("calibrate", "c.json", "--out", "r", "--status")
+        self.assertIn("complete: card.json", status.stdout)
+        # Its manifest repeats it, and the same folder computes nothing again.
+        before = self.text("r/ledger.jsonl")
+        self.assertEqual(self.run_program("calibrate", "r/manifest.json", "--out", "r").returncode, 0)
+        self.assertEqual(self.text("r/ledger.jsonl"), before)
+        self.assertEqual(json.loads(self.text("r/card.json")), card)
+
+    def test_killed_again_and_again_it_ends_with_the_same_card(self):
+        path = self.write(calibration())
+        self.assertEqual(self.run_program("calibrate", path, "--out", "whole", "--threads", "1").returncode, 0)
+        rng = random.Random(3)
+        kills = 0
+        for _ in range(60):
+            process = subprocess.Popen([case.PROGRAM, "calibrate", str(path), "--out", "killed", "--quiet"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            try:
+                self.assertEqual(process.wait(timeout=1.0 if kills < 10 else 300), 0)
+                break
+            except subprocess.TimeoutExpired:
+                time.sleep(rng.uniform(0.0, 0.5))
+                process.kill()
+                process.wait()
+                kills += 1
+                self.assertFalse((self.folder / "killed" / "card.json").exists() and process.returncode != 0 and kills < 2)
+        self.assertGreaterEqual(kills, 2)
+        self.assertEqual(self.text("killed/card.json"), self.text("whole/card.json"))
+        self.assertEqual(self.text("killed/trials.csv"), self.text("whole/trials.csv"))
+        names = [line["trial"] for line in self.ledger("killed")]
+        self.assertEqual(len(names), len(set(names)), "a trial was carried out twice")
+        self.assertEqual(set(names), {line["trial"] for line in self.ledger("whole")})
+
+    def test_an_interrupt_says_how_to_go_on(self):
+        process = self.start("calibrate", self.write(calibration()), "--out", "r", until="r/ledger.jsonl")
+        self.interrupt(process)
+        self.assertEqual(json.loads(self.text("r/manifest.json"))["status"], "interrupted")
+        self.assertFalse((self.folder / "r" / "card.json").exists())
+        self.assertIn("not at its end", self.run_program("calibrate", "c.json", "--out", "r", "--status").stdout)
+
+    def test_trials_carried_out_elsewhere_give_the_same_card(self):
+        path = self.write(calibration(finish={"rounds": 1}, confidence={"seeds": 0}))
+        self.assertEqual(self.run_program("calibrate", path, "--out", "here").returncode, 0)
+        planned = self.run_program("calibrate", path, "--out", "there", "--plan")
+        for _ in range(10):
+            self.assertEqual(planned.returncode, 0, planned.stderr)
+            if (self.folder / "there" / "card.json").exists():
+                break
+            self.assertIn("trials planned", planned.stdout)
+            self.assertEqual(self.run_program("trial", "--list", "there/trials.txt").returncode, 0)
+            planned = self.run_program("calibrate", path, "--out", "there", "--collect")
+        self.assertEqual(self.text("there/card.json"), self.text("here/card.json"))
+
+    def test_a_process_that_dies_is_a_bad_trial_and_not_the_end(self):
+        path = self.write(calibration(finish={"rounds": 0}, confidence={"seeds": 0}, search={"spheres": 1, "trials": 8, "batch": 4}))
+        process = self.start("calibrate", path, "--out", "r", until="r/ledger.jsonl")
+        killed = False
+        end = time.monotonic() + 20
+        while not killed and time.monotonic() < end and process.poll() is None:
+            children = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True).stdout.split()
+            for child in children:
+                try:
+                    os.kill(int(child), signal.SIGSEGV)
+                    killed = True
+                except ProcessLookupError:
+                    pass
+        _, log = process.communicate(timeout=300)
+        self.assertTrue(killed)
+        self.assertEqual(process.returncode, 0, log)
+        reasons = [job["reason"] for line in self.ledger("r") for job in line["jobs"] if job["status"] == "failed"]
+        self.assertTrue(any("signal 11" in reason for reason in reasons), reasons)
+
+    def test_bad_input_is_refused_with_all_problems_and_no_folder(self):
+        bad = calibration(parameters=[{"path": "material.tauf", "low": 1, "high": 2}],
+                          targets=[{"test": "ucs", "result": "strength"}, {"test": "x", "curve": "none.csv"}], serch={})
+        done = self.run_program("calibrate", self.write(bad), "--out", "r")
+        self.assertEqual(done.returncode, 2)
+        for words in ("/parameters/0/path", "material.tau_f", "/targets/0/value", "/targets/1/test", "/targets/1/y", "/serch"):
+            self.assertIn(words, done.stderr)
+        self.assertFalse((self.folder / "r").exists())
+        other = self.folder / "other"
+        other.mkdir()
+        (other / "notes.txt").write_text("mine")
+        done = self.run_program("calibrate", self.write(calibration()), "--out", "other")
+        self.assertEqual((done.returncode, os.listdir(other)), (2, ["notes.txt"]))
+        # Targets that no trial can give: the reason of the last one is told.
+        impossible = calibration(targets=[{"test": "ucs", "result": "no_such_result", "value": 1}], search={"spheres": 0.5, "trials": 2, "batch": 2})
+        done = self.run_program("calibrate", self.write(impossible), "--out", "r")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("none of 2 trials gave every target", done.stderr)
+
+
+if __name__ == "__main__":
+    case.main()
