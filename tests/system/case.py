@@ -25,8 +25,8 @@ class Case(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="proveta_system_"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
-    def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder, timeout=300, **options)
+    def run_program(self, *arguments, timeout=300, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder, timeout=timeout, **options)
 
     def start(self, *arguments, until, at_most=60.0):
         """The program in the background, once the path `until` exists in the folder, or after `at_most` seconds."""
