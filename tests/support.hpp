@@ -63,7 +63,7 @@ inline Bonds one_bond(const Spheres& s, const Material& m) {
 inline Deck small_deck(int spheres, const std::string& more = "{}") {
     input::Json json = input::Json::parse(R"({"test": "ucs", "specimen": {"diameter": "50 mm", "height": "100 mm"}})");
     json["specimen"]["spheres"] = spheres;
-    json["material"] = {{"fracture_energy_tension", 0}, {"fracture_energy_shear", 0}, {"strength_factor", 1.195}};
+    json["material"] = verification::brittle_strengths();
     json.merge_patch(input::Json::parse(more));
     return read_deck(json, "test.json");
 }

@@ -11,7 +11,6 @@
 namespace proveta {
 
 using input::above;
-using input::between;
 using input::Json;
 using input::Unit;
 

@@ -75,7 +75,8 @@ std::vector<Point> propose_by_models(const std::vector<Sample>& samples, std::si
         const bool wide = k % 2 == 0;
         const double radius = wide ? wide_radius : near;
         const ResidualModel model(samples, centre, radius);
-        out.push_back(model.best((wide ? 2.0 : 1.0) * radius / static_cast<double>(1 + k / 2), seed + k));
+        const std::size_t nearer = 1 + k / 2;
+        out.push_back(model.best((wide ? 2.0 : 1.0) * radius / static_cast<double>(nearer), seed + k));
     }
     return out;
 }

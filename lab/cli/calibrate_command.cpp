@@ -23,13 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using input::Json;
 
-struct Arguments : RunArguments {
-    std::string file;
-    bool status = false;
-    bool plan = false;
-    bool collect = false;
-};
-
 // A folder of a calibration goes on where it was; any other must be new or empty.
 void claim(const fs::path& out) {
     std::error_code error;
@@ -115,7 +108,7 @@ void write_results(const fs::path& out, const CalibrationPlan& plan, const std::
     fmt::print("card in {}, report in {}\n", (out / "card.json").string(), (out / "report.html").string());
 }
 
-int carry_out_calibration(const Arguments& a, const std::string& typed) {
+int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     const fs::path out = a.out.empty() ? fs::path("results") / fs::path(a.file).stem() : fs::path(a.out);
     if (a.status) {
         return show_status(out);
@@ -125,8 +118,7 @@ int carry_out_calibration(const Arguments& a, const std::string& typed) {
     const auto targets = make_targets(plan);
     claim(out);
     catch_interrupts();
-    const bool elsewhere = a.plan || a.collect;
-    TrialBook book(out, elsewhere ? BookMode::plan : BookMode::run, static_cast<std::size_t>(omp_get_max_threads()), a.quiet);
+    TrialBook book(out, a.elsewhere() ? BookMode::plan : BookMode::run, static_cast<std::size_t>(omp_get_max_threads()), a.quiet);
     write_manifest(out, plan, typed, "running");
     if (book.known() > 0 && !a.quiet) {
         spdlog::info("{} trials are in the ledger and will not be repeated", book.known());
@@ -151,17 +143,9 @@ int carry_out_calibration(const Arguments& a, const std::string& typed) {
 } // namespace
 
 void add_calibrate(CLI::App& app, const std::string& typed, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<TrialsArguments>();
     auto* command = app.add_subcommand("calibrate", "find the card that reproduces measured results and curves, and how sure it is");
-    command->add_option("calibration", a->file, "calibration (JSON), or the manifest.json of an earlier one")->required();
-    command->add_option("--threads", a->threads, "number of threads, of all trials together; results do not depend on it")
-        ->check(CLI::Range(1, 1024));
-    add_output(*command, *a, "results/NAME of the calibration");
-    auto* status = command->add_flag("--status", a->status, "say how far it is; may be asked while it runs");
-    auto* plan = command->add_flag("--plan", a->plan, "write the next trials for a cluster instead of carrying them out");
-    auto* collect = command->add_flag("--collect", a->collect, "take in what a cluster has done, and plan the next trials or end");
-    status->excludes(plan)->excludes(collect);
-    plan->excludes(collect);
+    add_trials(*command, *a, "calibration", "results/NAME of the calibration");
     command->callback([a, typed, &chosen] { chosen = [a, typed] { return carry_out_calibration(*a, typed); }; });
 }
 

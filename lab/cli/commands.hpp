@@ -43,6 +43,19 @@ void add_settings(CLI::App& command, RunArguments& a);
 /// Adds --out and --quiet. folder: what the help says of the default of --out.
 void add_output(CLI::App& command, RunArguments& a, const std::string& folder);
 
+/// Arguments of the commands whose trials go through a ledger.
+struct TrialsArguments : RunArguments {
+    std::string file;
+    bool status = false;
+    bool plan = false;
+    bool collect = false;
+
+    [[nodiscard]] bool elsewhere() const { return plan || collect; } ///< trials are carried out by others
+};
+
+/// Adds the file (what it is called, "sweep"), --threads, --out, --quiet, --status, --plan and --collect.
+void add_trials(CLI::App& command, TrialsArguments& a, const std::string& what, const std::string& folder);
+
 /// Takes the number of threads over, if one is given.
 void use_threads(int threads);
 

@@ -166,6 +166,8 @@ void add_schema(CLI::App& app, Command& chosen) {
                 MaterialInput material;
                 material.card = custom_card;
                 schema.update(input::schema(material));
+                schema["properties"]["evidence"] = {{"description", "what a calibration says of the card's making; changes nothing"},
+                                                    {"type", "object"}};
             }
             fmt::print("{}\n", schema.dump(2));
             return 0;

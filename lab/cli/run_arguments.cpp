@@ -20,6 +20,18 @@ void add_output(CLI::App& command, RunArguments& a, const std::string& folder) {
     command.add_flag("--quiet", a.quiet, "no progress, no log but warnings and errors");
 }
 
+void add_trials(CLI::App& command, TrialsArguments& a, const std::string& what, const std::string& folder) {
+    command.add_option("file", a.file, what + " (JSON), or the manifest.json of an earlier one")->required();
+    add_threads(command, a);
+    add_output(command, a, folder);
+    auto* status = command.add_flag("--status", a.status, "say how far it is and change nothing; may be asked while it runs");
+    auto* plan = command.add_flag("--plan", a.plan, "carry nothing out here: write the next trials, and scripts that do it elsewhere");
+    auto* collect =
+        command.add_flag("--collect", a.collect, "take in what was carried out elsewhere; when all is there, results and report");
+    status->excludes(plan)->excludes(collect);
+    plan->excludes(collect);
+}
+
 void use_threads(int threads) {
     if (threads > 0) {
         omp_set_num_threads(threads);

@@ -14,17 +14,10 @@ namespace proveta {
 
 namespace {
 
-struct Arguments : RunArguments {
-    std::string file;
-    bool plan = false;
-    bool collect = false;
-    bool status = false;
-};
-
-int carry_out_sweep(const Arguments& a, const std::string& typed) {
+int carry_out_sweep(const TrialsArguments& a, const std::string& typed) {
     use_threads(a.threads);
     const Sweep sweep = read_sweep(a.file);
-    SweepOptions options{a.out, typed, a.threads, a.quiet, a.plan || a.collect ? BookMode::plan : BookMode::run};
+    SweepOptions options{a.out, typed, a.threads, a.quiet, a.elsewhere() ? BookMode::plan : BookMode::run};
     if (options.out.empty()) {
         options.out = fmt::format("results/{}-sweep", std::filesystem::path(a.file).stem().string());
     }
@@ -53,17 +46,9 @@ int carry_out_sweep(const Arguments& a, const std::string& typed) {
 } // namespace
 
 void add_sweep(CLI::App& app, const std::string& typed, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<TrialsArguments>();
     auto* command = app.add_subcommand("sweep", "tests at many points of a space of parameters: a table, and what depends on what");
-    command->add_option("file", a->file, "sweep (JSON), or the manifest.json of an earlier one")->required();
-    add_threads(*command, *a);
-    add_output(*command, *a, "results/NAME-sweep");
-    auto* plan = command->add_flag("--plan", a->plan, "carry nothing out: write the trials, and scripts that do it elsewhere");
-    auto* collect =
-        command->add_flag("--collect", a->collect, "take in what was carried out elsewhere; when all is there, table and report");
-    auto* status = command->add_flag("--status", a->status, "how far it is; changes nothing");
-    collect->excludes(plan)->excludes(status);
-    status->excludes(plan);
+    add_trials(*command, *a, "sweep", "results/NAME-sweep");
     command->callback([a, typed, &chosen] { chosen = [a, typed] { return carry_out_sweep(*a, typed); }; });
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <new>
 #include <sstream>
@@ -53,7 +54,7 @@ void run(const fs::path& folder, JobResult& result) {
     }
     const report::Record record = make_record(deck, bench, data, acoustic_events(data.events, acoustic_rule(bench)), result.status);
     for (const auto& scalar : record.results) {
-        if (scalar.value) {
+        if (scalar.value && std::isfinite(*scalar.value)) { // JSON knows no others
             result.results[scalar.name] = *scalar.value;
             if (!scalar.unit.empty()) {
                 result.units[scalar.name] = scalar.unit;

@@ -261,9 +261,12 @@ class SelfDescription(Case):
         if not node_modules:
             self.skipTest("PROVETA_NODE_MODULES is not set (bootstrap.sh installs ajv and sets it)")
         (self.folder / "schema.json").write_text(self.run_program("schema").stdout)
-        (self.folder / "card.json").write_text(self.run_program("schema", "card").stdout)
+        for kind in ("card", "sweep", "calibration"):
+            (self.folder / f"{kind}.json").write_text(self.run_program("schema", kind).stdout)
         examples = pathlib.Path(__file__).parents[2]
-        decks = [(d, True) for d in sorted((examples / "examples").glob("*.json"))]
+        files = {f: json.loads(f.read_text()) for f in sorted((examples / "examples").glob("*.json"))}
+        kinds = {f: "calibration" if "targets" in j else "sweep" if "tests" in j else "deck" for f, j in files.items()}
+        decks = [(f, True) for f, kind in kinds.items() if kind == "deck"]
         decks += [(self.deck(**c, name=f"d{k}.json"), good) for k, (c, good) in enumerate([
             ({}, True), ({"loading": {"rate": "0.1 m/s", "platen_friction": "glued"}}, True), ({"loading": {"rate": 0}}, False),
             ({"loading": {"rat": 1}}, False), ({"specimen": {"spheres": 1}}, False), ({"material": {"lcs": [1, 2]}}, False),
@@ -274,6 +277,11 @@ class SelfDescription(Case):
             self.assertEqual(self.run_program("check", deck).returncode == 0, good, deck.read_text())
         jobs = [["schema.json", str(d), good] for d, good in decks]
         jobs += [["card.json", str(c), True] for c in sorted((examples / "materials" / "cards").glob("*.json"))]
+        for kind, command in (("sweep", "sweep"), ("calibration", "calibrate")):
+            for file in (f for f, k in kinds.items() if k == kind):
+                bad = self.deck({**files[file], "parameters": [{"path": "material.tau_f", "low": "1 parsec", "high": "20 MPa"}]}, f"bad_{kind}.json")
+                self.assertEqual(self.run_program(command, bad, "--out", "none").returncode, 2)
+                jobs += [[f"{kind}.json", str(file), True], [f"{kind}.json", str(bad), False]]
         script = f"""
             const Ajv = require({json.dumps(node_modules + '/ajv/dist/2020')}).default, fs = require('fs');
             const read = f => JSON.parse(fs.readFileSync(f));
