@@ -103,7 +103,7 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
             keep(error, file, at + "/deck", own_file, problems);
             continue;
         }
-        if (!test.deck["specimen"].contains("file") || test.deck["specimen"]["file"] == "") {
+        if (test.deck["specimen"].value("file", "").empty()) {
             for (const double seed : keys.seeds) {
                 test.seeds.push_back(std::llround(seed));
             }

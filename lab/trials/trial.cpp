@@ -39,7 +39,8 @@ std::string bytes_of(const fs::path& file) {
     return text.str();
 }
 
-bool made(const Json& deck) { return !deck["specimen"].contains("file") || deck["specimen"]["file"] == ""; }
+// A specimen made by a recipe, and not a stored one.
+bool made(const Json& deck) { return deck["specimen"].value("file", "").empty(); }
 
 std::string specimen_key(const Json& deck) { return key_of(deck["specimen"].dump()); }
 
