@@ -6,6 +6,8 @@
 #include <numeric>
 #include <random>
 
+#include "lab/trials/uniform.hpp"
+
 namespace proveta {
 
 namespace {
@@ -13,9 +15,6 @@ namespace {
 constexpr int random_starts = 3000;
 constexpr double ridge_linear = 1e-4;
 constexpr double ridge_quadratic = 3e-2;
-
-// The same numbers on every machine, which std::uniform_real_distribution does not promise.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
 
 } // namespace
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "lab/trials/uniform.hpp"
+
 namespace proveta {
 
 namespace {
@@ -38,8 +40,6 @@ std::vector<Point> propose_globally(const std::vector<Sample>& samples, std::siz
     }
     return out;
 }
-
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
 
 std::vector<Point> propose_at_random(std::size_t dimensions, std::size_t count, std::uint64_t seed) {
     std::mt19937_64 random(seed);

@@ -7,6 +7,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "lab/trials/uniform.hpp"
+
 namespace proveta {
 
 namespace {
@@ -17,7 +19,7 @@ class Random {
     explicit Random(std::uint64_t seed) : engine_(seed) {}
 
     // 0 <= u < 1, of the upper 53 bits.
-    double uniform() { return std::ldexp(static_cast<double>(engine_() >> 11), -53); }
+    double uniform() { return proveta::uniform(engine_); }
     // 0 to n - 1.
     std::size_t below(std::size_t n) { return std::min(n - 1, static_cast<std::size_t>(uniform() * static_cast<double>(n))); }
     // 0 to n - 1 in random order (Fisher and Yates).
