@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "lab/calibrate/search.hpp"
 #include "lab/provenance.hpp"
+#include "lab/trials/decks.hpp"
 
 namespace proveta {
 
@@ -65,17 +65,12 @@ class Calibration {
         for (const auto& test : tests) {
             const std::size_t n = test.seeds.empty() ? 1 : seeds == all_seeds ? test.seeds.size() : seeds;
             for (std::size_t k = first; k < first + n; ++k) {
-                Job job{test.name, test.name, {}};
-                std::int64_t seed = 0;
-                if (!test.seeds.empty()) {
-                    const std::size_t own = test.seeds.size();
-                    seed = k < own ? test.seeds[k]
-                                   : *std::max_element(test.seeds.begin(), test.seeds.end()) + static_cast<std::int64_t>(k - own + 1);
-                    job.name += fmt::format("_seed_{}", seed);
-                }
-                job.deck = deck_for(test, seed, share);
-                plan_.space.apply(job.deck, plan_.space.values(u));
-                t.jobs.push_back(std::move(job));
+                const std::size_t own = test.seeds.size();
+                const std::int64_t seed =
+                    own == 0  ? 0
+                    : k < own ? test.seeds[k]
+                              : *std::max_element(test.seeds.begin(), test.seeds.end()) + static_cast<std::int64_t>(k - own + 1);
+                t.jobs.push_back(job_for(test, seed, share, plan_.space, plan_.space.values(u)));
             }
         }
         return t;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lab/provenance.hpp"
 
@@ -262,15 +264,18 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
     }
     r.stopped_by = fmt::format("{} trials, of which {} did not give every target", outcome.trials.size(), failed);
     r.overview = {targets_table(targets, outcome, folders, true)};
-    bool predicts = false;
-    for (const auto& t : targets) {
-        predicts = predicts || !t.input.fitted();
-        if (t.input.kind != "measured") {
-            r.warnings.push_back(fmt::format("\"{}\" is {}, not a measurement.", t.input.title(),
-                                             t.input.kind == "estimate" ? "an estimate" : "a calculation"));
+    for (const auto& [kind, what] : {std::pair{"estimate", "an estimate"}, {"computed", "a calculation"}}) {
+        std::vector<std::string> titles;
+        for (const auto& t : targets) {
+            if (t.input.kind == kind) {
+                titles.push_back(t.input.title());
+            }
+        }
+        if (!titles.empty()) {
+            r.warnings.push_back(fmt::format("Each of these targets is {}, not a measurement: {}.", what, fmt::join(titles, "; ")));
         }
     }
-    if (predicts) {
+    if (std::any_of(targets.begin(), targets.end(), [](const Target& t) { return !t.input.fitted(); })) {
         r.overview.push_back(targets_table(targets, outcome, folders, false));
     }
     r.overview.push_back(parameters_table(plan, outcome));

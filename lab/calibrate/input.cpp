@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
-#include "lab/deck.hpp"
+#include "lab/trials/decks.hpp"
 
 namespace proveta {
 
@@ -129,37 +128,6 @@ void check_target(const TargetInput& t, const std::string& at, const std::vector
     }
 }
 
-// Decks that the parameters make, one by one at either bound while the others are in the middle.
-void check_bounds(const CalibrationPlan& plan, const std::string& file, input::Problems& problems) {
-    const std::size_t n = plan.space.size();
-    std::set<std::string> said;
-    for (std::size_t k = 0; k < 2 * n + 1; ++k) {
-        std::vector<double> u(n, 0.5);
-        std::string where = "all parameters in the middle";
-        std::string path = "/parameters";
-        if (k > 0) {
-            u[(k - 1) / 2] = k % 2 == 1 ? 0.0 : 1.0;
-            path = fmt::format("/parameters/{}/{}", (k - 1) / 2, k % 2 == 1 ? "low" : "high");
-            where =
-                fmt::format("{} at its {} bound, the others in the middle", plan.space[(k - 1) / 2].name, k % 2 == 1 ? "lower" : "upper");
-        }
-        for (const auto& test : plan.tests) {
-            Json deck = test.deck;
-            plan.space.apply(deck, plan.space.values(u));
-            try {
-                read_deck(deck, file);
-            } catch (const input::InputError& error) {
-                for (const auto& p : error.problems) {
-                    if (said.insert(p.path + p.expected).second) {
-                        problems.push_back({file, path, fmt::format("{}: {} is {}", where, p.path, p.found), p.expected,
-                                            p.suggestion.empty() ? "give other bounds; \"times\" keeps values in order" : p.suggestion});
-                    }
-                }
-            }
-        }
-    }
-}
-
 } // namespace
 
 CalibrationPlan read_calibration(const std::string& file) {
@@ -197,7 +165,11 @@ CalibrationPlan read_calibration(const std::string& file) {
         problems.push_back({file, "/targets", "nothing to fit", "at least one target with \"use\": \"fit\"", ""});
     }
     if (problems.empty()) {
-        check_bounds(plan, file, problems);
+        std::vector<std::vector<double>> bounds;
+        for (std::size_t k = 0; k < plan.space.size(); ++k) {
+            bounds.push_back({plan.space[k].low, plan.space[k].high});
+        }
+        check_decks(plan.space, plan.tests, bounds, file, problems);
     }
     if (!problems.empty()) {
         throw input::InputError(problems);

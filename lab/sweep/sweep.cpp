@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "lab/deck.hpp"
+#include "lab/trials/decks.hpp"
 
 namespace proveta {
 
@@ -104,40 +104,6 @@ void lay_out(Sweep& sweep) {
     }
 }
 
-// The decks of all tests at some values; what is wrong with them, at the place in the sweep that is to blame.
-void check_decks(const Sweep& sweep, const std::vector<double>& values, const std::string& where, const std::string& blame,
-                 const std::string& file, input::Problems& problems) {
-    for (std::size_t t = 0; t < sweep.tests.size(); ++t) {
-        const TrialTest& test = sweep.tests[t];
-        Json deck = deck_for(test, test.seeds.empty() ? 0 : test.seeds.front(), 1.0);
-        sweep.space.apply(deck, values);
-        try {
-            read_deck(deck, file);
-        } catch (const input::InputError& error) {
-            for (const auto& p : error.problems) {
-                const std::string path = blame.empty() ? fmt::format("/tests/{}/deck{}", t, p.path) : blame;
-                problems.push_back({file, path, fmt::format("{}: test \"{}\", {}: {}", where, test.name, p.path, p.found), p.expected, ""});
-            }
-        }
-    }
-}
-
-void check_bounds(const Sweep& sweep, const std::string& file, input::Problems& problems) {
-    const std::vector<double> middle = sweep.space.values(Point(sweep.space.size(), 0.5));
-    check_decks(sweep, middle, "in the middle of all ranges", "", file, problems);
-    if (!problems.empty()) {
-        return; // each bound would only say it again
-    }
-    for (std::size_t k = 0; k < sweep.space.size(); ++k) {
-        const Parameter& p = sweep.space[k];
-        for (const double value : sweep.input.design == "grid" ? levels_of(p) : std::vector<double>{p.low, p.high}) {
-            auto values = middle;
-            values[k] = value;
-            check_decks(sweep, values, fmt::format("{} = {:.6g}", p.name, value), fmt::format("/parameters/{}", k), file, problems);
-        }
-    }
-}
-
 } // namespace
 
 void declare(input::Visitor& v, SweepInput& s) {
@@ -174,7 +140,12 @@ Sweep read_sweep(const std::string& file) {
         sweep.space = ParameterSpace(sweep.input.parameters, decks, file, problems);
     }
     if (problems.empty()) {
-        check_bounds(sweep, file, problems);
+        std::vector<std::vector<double>> levels;
+        for (std::size_t k = 0; k < sweep.space.size(); ++k) {
+            const Parameter& p = sweep.space[k];
+            levels.push_back(sweep.input.design == "grid" ? levels_of(p) : std::vector<double>{p.low, p.high});
+        }
+        check_decks(sweep.space, sweep.tests, levels, file, problems);
     }
     if (!problems.empty()) {
         throw input::InputError(problems);
@@ -192,17 +163,8 @@ std::vector<Trial> trials_of(const Sweep& sweep) {
         Trial trial;
         trial.values = values;
         for (const auto& test : sweep.tests) {
-            const auto add = [&](const std::string& name, std::int64_t seed) {
-                Job job{name, test.name, deck_for(test, seed, 1.0)};
-                sweep.space.apply(job.deck, values);
-                trial.jobs.push_back(std::move(job));
-            };
-            if (test.seeds.size() < 2) {
-                add(test.name, test.seeds.empty() ? 0 : test.seeds.front());
-                continue;
-            }
-            for (const auto seed : test.seeds) {
-                add(fmt::format("{}_seed_{}", test.name, seed), seed);
+            for (const auto seed : test.seeds.empty() ? std::vector<std::int64_t>{0} : test.seeds) {
+                trial.jobs.push_back(job_for(test, seed, 1.0, sweep.space, values));
             }
         }
         out.push_back(keyed(std::move(trial)));

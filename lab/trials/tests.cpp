@@ -14,8 +14,6 @@ using input::Json;
 
 namespace {
 
-constexpr std::int64_t fewest_spheres = 50;
-
 // Problems of a deck at the place where it stands in the file.
 void keep(const input::InputError& error, const std::string& file, const std::string& at, bool own_file, input::Problems& problems) {
     for (auto problem : error.problems) {
@@ -111,16 +109,6 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
         out.push_back(std::move(test));
     }
     return out;
-}
-
-Json deck_for(const TrialTest& test, std::int64_t seed, double share) {
-    Json deck = test.deck;
-    if (!test.seeds.empty()) {
-        auto& specimen = deck["specimen"];
-        specimen["seed"] = seed;
-        specimen["spheres"] = std::max<std::int64_t>(fewest_spheres, std::llround(share * specimen["spheres"].get<double>()));
-    }
-    return deck;
 }
 
 void add_tests_to_schema(Json& schema) {

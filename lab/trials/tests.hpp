@@ -29,9 +29,6 @@ void declare(input::Visitor& v, TestKeys& keys);
 /// or the name of a file, relative to the file that is read. Appends what is wrong to `problems`.
 std::vector<TrialTest> take_tests(input::Json& json, const std::string& file, input::Problems& problems);
 
-/// The deck of one specimen of a test: `seed` (unless its specimen is stored) and `share` of its spheres, at least 50.
-input::Json deck_for(const TrialTest& test, std::int64_t seed, double share);
-
 /// JSON schema of "deck" and "tests", to be added to that of what else is in the file.
 void add_tests_to_schema(input::Json& schema);
 

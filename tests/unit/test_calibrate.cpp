@@ -6,6 +6,7 @@
 #include "lab/calibrate/calibrate.hpp"
 #include "lab/calibrate/search.hpp"
 #include "lab/trials/csv.hpp"
+#include "lab/trials/decks.hpp"
 #include "materials/measured.hpp"
 #include "tests/support.hpp"
 

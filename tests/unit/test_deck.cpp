@@ -117,9 +117,10 @@ TEST_CASE("the presets beside the default carry the law they are named after") {
         R"({"test": "ucs", "material": {"fracture_energy_tension": 100, "fracture_energy_shear": 0, "sigma_f": "4 MPa", "strength_factor": 1}})");
     CHECK(bond_law(tough).opening_f == Approx(2.0 * 100 / 4e6));
     CHECK(bond_law(tough).slip_f == 0.0);
-    const Material usual = material(R"({"test": "ucs"})");
-    CHECK(bond_law(usual).opening_f > 0.0);
-    CHECK(bond_law(usual).slip_f > 0.0);
+    const Material sheared = material(
+        R"({"test": "ucs", "material": {"fracture_energy_tension": 0, "fracture_energy_shear": 900, "tau_f": "15 MPa", "strength_factor": 1}})");
+    CHECK(bond_law(sheared).opening_f == 0.0);
+    CHECK(bond_law(sheared).slip_f == Approx(2.0 * 900 / 15e6));
     const Material averaged =
         material(R"({"test": "ucs", "material": {"card": "thesis", "criterion": "rankine", "sigma_f": "4 MPa", "strength_factor": 1}})");
     CHECK(bond_law(averaged).averaged_sigma_f == 4e6);

@@ -220,7 +220,7 @@ TEST_CASE("a sweep is read with its decks, and its manifest is the same sweep") 
     REQUIRE(sweep.points.size() == 5);
     const auto trials = trials_of(sweep);
     const auto& deck = trials[2].jobs[0].deck;
-    CHECK(trials[2].jobs[0].name == "press");
+    CHECK(trials[2].jobs[0].name == "press_seed_1");
     CHECK(deck["material"]["tau_f"] == 10e6 + 10e6 * sweep.points[2][0]);
     CHECK(deck["material"]["sigma_f"].get<double>() == Approx(sweep.values[2][1] * sweep.values[2][0])); // a multiple
     const input::Json manifest{{"proveta_sweep_manifest", 1}, {"sweep", resolved(sweep)}};
@@ -262,7 +262,7 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
     const auto bounds = problems_of(folder.file("c.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
         "parameters": [{"path": "material.tau_f", "low": -1, "high": "9 MPa"}]})"));
     REQUIRE(bounds.size() == 1);
-    CHECK(bounds.front().path == "/parameters/0");
+    CHECK(bounds.front().path == "/parameters/0/low");
     CHECK(bounds.front().found.find("tau_f = -1") != std::string::npos);
 }
 
@@ -322,7 +322,7 @@ TEST_CASE("a trial whose specimen cannot be made fails with the reason, and by i
     trial.jobs[0].deck["specimen"]["spheres"] = -5; // as no bound of a parameter has shown
     const TrialFolders folders(folder.path());
     folders.write(trial);
-    REQUIRE(run_job(folders.trial(trial.key) / "press"));
+    REQUIRE(run_job(folders.trial(trial.key) / "press_seed_1"));
     const auto done = folders.finished(trial.key);
     REQUIRE(done.size() == 1);
     CHECK(done[0].status == "failed");
