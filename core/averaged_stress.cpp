@@ -21,15 +21,23 @@ template <class Pairs> void add_pairs(const Spheres& s, const Pairs& pairs, std:
 
 } // namespace
 
-std::vector<Mat3> sphere_stresses(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
+std::vector<Mat3> sphere_stresses(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const Walls& walls,
                                   const std::vector<Pressure>& pressures, const std::vector<double>& volume) {
     std::vector<Mat3> sum(s.size(), Mat3::Zero());
-    for (const auto& platen : platens) {
+    for (const auto& platen : walls.platens) {
         for (std::size_t k = 0; k < platen.sphere.size(); ++k) {
             const auto i = static_cast<std::size_t>(platen.sphere[k]);
             const auto foot = platen.foot(s.position.at(i));
             const Vec3 arm = -foot.distance * foot.normal;
             sum[i] -= arm * platen.force.at(k).transpose();
+        }
+    }
+    for (const auto& surface : walls.surfaces) {
+        for (const auto& touches : surface.touches) {
+            for (const auto& t : touches) {
+                const auto i = static_cast<std::size_t>(t.sphere);
+                sum[i] -= (surface.to_space(t.point) - s.position.at(i)) * t.force.transpose();
+            }
         }
     }
     for (const auto& pressure : pressures) {

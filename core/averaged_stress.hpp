@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "core/bonds/bonds.hpp"
-#include "core/boundaries/platen.hpp"
 #include "core/boundaries/pressure.hpp"
+#include "core/boundaries/walls.hpp"
 #include "core/contacts/contacts.hpp"
 
 namespace proveta {
 
-/// Mean stress of each sphere, compression positive, symmetric, Pa: (1/V) sum over bonds, contacts, platens and pressures of r x F with r
+/// Mean stress of each sphere, compression positive, symmetric, Pa: (1/V) sum over bonds, contacts, walls and pressures of r x F with r
 /// from the centre to the contact point. volume: one a sphere, m3.
-std::vector<Mat3> sphere_stresses(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
+std::vector<Mat3> sphere_stresses(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const Walls& walls,
                                   const std::vector<Pressure>& pressures, const std::vector<double>& volume);
 
 /// Mean stress of each sphere's vicinity: itself and the spheres it is still bonded to, weighted by their volumes, Pa. Single spheres of a

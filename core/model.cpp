@@ -34,14 +34,14 @@ UnstableStep::UnstableStep(double asked_step, double stable_step)
     : std::runtime_error(text("the time step of ", asked_step, " s is above the stable one of ", stable_step, " s")), asked(asked_step),
       stable(stable_step) {}
 
-Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> weight, std::vector<Platen> boundary,
-             const Numerics& numerics)
-    : spheres(std::move(s)), materials(std::move(m)), bonds(std::move(b)), platens(std::move(boundary)), weight_(std::move(weight)),
-      numerics_(numerics), bound_(spheres, bonds), team_(std::make_unique<Team>(omp_get_max_threads())) {
+Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> weight, Walls rigid, const Numerics& numerics,
+             Clusters bodies)
+    : spheres(std::move(s)), materials(std::move(m)), bonds(std::move(b)), clusters(std::move(bodies)), walls(std::move(rigid)),
+      weight_(std::move(weight)), numerics_(numerics), bound_(spheres, bonds), team_(std::make_unique<Team>(omp_get_max_threads())) {
     const double mean_radius =
         std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / std::max<double>(1.0, static_cast<double>(spheres.size()));
     skin_ = numerics_.skin * mean_radius;
-    reactions_.assign(platens.size(), Vec3::Zero());
+    reactions_.assign(walls.platens.size(), Vec3::Zero());
     averaged_ = std::any_of(bonds.laws.begin(), bonds.laws.end(), [](const BondLaw& law) { return law.criterion != Criterion::bond; });
     if (averaged_) {
         volume_ = tributary_volumes(spheres, bonds);
@@ -49,11 +49,10 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     loads = Loads(spheres.size());
     block_sums_.resize(loads.blocks().size());
     block_motion_.resize(loads.blocks().size());
-    travel_ = 2.0 * skin_; // makes the first search happen
     search();
     const bool short_step = numerics_.time_step && *numerics_.time_step <= stable_; // asked for, and stable with true masses
-    scaling_ =
-        scale_masses(spheres, bonds, materials, weight_, contacts, platens, skin_, short_step ? 0.0 : numerics_.mass_scaling, bound_);
+    scaling_ = scale_masses(spheres, bonds, materials, weight_, contacts, walls, clusters, skin_,
+                            short_step || !clusters.empty() ? 0.0 : numerics_.mass_scaling, bound_);
     scaling_.step_before *= damping_share(numerics_.damping);
     scaling_.step_after *= damping_share(numerics_.damping);
     stable_ = scaling_.step_after;
@@ -90,48 +89,47 @@ void Model::step(const std::vector<double>& speeds, bool measure) {
     ++steps_;
 }
 
-// Lists neighbours anew once two spheres, or a sphere and a platen, may have come nearer by more than the skin.
+// Lists neighbours anew once two spheres, or a sphere and a wall, may have come nearer by more than the skin. Surfaces may be faster than
+// any sphere and are listed by themselves.
 void Model::search() {
-    if (2.0 * travel_ <= skin_) {
-        return;
+    const bool first = searches_ == 0;
+    double platens_way = 0.0;
+    for (std::size_t p = 0; p < platens_at_.size(); ++p) {
+        platens_way = std::max(platens_way, std::fabs(walls.platens[p].position - platens_at_[p]));
     }
-    if (searches_ > 0) {
-        // The sum of the fastest speeds is a coarse bound; look at what really moved before paying for a search.
-        double farthest = 0.0;
-        for (std::size_t k = 0; k < spheres.size(); ++k) {
-            farthest = std::max(farthest, (spheres.position.at(k) - searched_at_.at(k)).squaredNorm());
+    const bool neighbours = first || 2.0 * platens_way > skin_ || travel_.beyond(0.5 * skin_, spheres.position);
+    const bool surfaces =
+        !walls.surfaces.empty() && (first || surface_way_ > skin_ || surface_travel_.beyond(skin_ - surface_way_, spheres.position));
+    if (neighbours) {
+        contacts = search_contacts(spheres, bonds, clusters, materials, weight_, skin_, contacts);
+        platens_at_.resize(walls.platens.size());
+        for (std::size_t p = 0; p < walls.platens.size(); ++p) {
+            search_platen(spheres, materials, skin_, walls.platens[p]);
+            platens_at_[p] = walls.platens[p].position;
         }
-        farthest = std::sqrt(farthest);
-        for (std::size_t p = 0; p < platens.size(); ++p) {
-            farthest = std::max(farthest, std::fabs(platens[p].position - platens_at_[p]));
-        }
-        travel_ = farthest;
-        if (2.0 * travel_ <= skin_) {
-            return;
-        }
+        arrange();
+        travel_.restart(spheres.position);
+        ++searches_;
     }
-    contacts = search_contacts(spheres, bonds, materials, weight_, skin_, contacts);
-    platens_at_.resize(platens.size());
-    for (std::size_t p = 0; p < platens.size(); ++p) {
-        search_platen(spheres, materials, skin_, platens[p]);
-        platens_at_[p] = platens[p].position;
+    if (surfaces) {
+        team_->run(walls.surfaces.size(), [&](std::size_t k) { search_surface(spheres, materials, skin_, walls.surfaces[k]); });
+        surface_travel_.restart(spheres.position);
+        surface_way_ = 0.0;
     }
-    arrange();
-    searched_at_ = spheres.position;
-    travel_ = 0.0;
-    ++searches_;
-    keep_stable();
+    if (neighbours || surfaces) {
+        keep_stable(first);
+    }
 }
 
 // What was stable stays the bound, unless new contacts have made the network too stiff for the step. Then the spheres that they press on
 // get more mass, as far as that is allowed, and only beyond that the step is shortened.
-void Model::keep_stable() {
+void Model::keep_stable(bool first) {
     const double share = damping_share(numerics_.damping);
-    if (searches_ == 1) {
-        stable_ = share * bound_.limit(spheres, bonds, contacts, platens, skin_);
+    if (first) {
+        stable_ = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, skin_);
         return;
     }
-    const double lowest = share * bound_.limit(spheres, bonds, contacts, platens, skin_, dt_ / share);
+    const double lowest = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, skin_, dt_ / share);
     if (lowest >= dt_) {
         return;
     }
@@ -141,7 +139,7 @@ void Model::keep_stable() {
             const double whole = std::accumulate(scaling_.mass.begin(), scaling_.mass.end(), 0.0);
             const double left = (numerics_.mass_scaling - scaling_.added_later) * whole;
             const double wanted = dt_ / (numerics_.safety * share);
-            const Easing eased = ease_step(spheres, bonds, materials, weight_, contacts, platens, skin_, wanted, left, bound_);
+            const Easing eased = ease_step(spheres, bonds, materials, weight_, contacts, walls, clusters, skin_, wanted, left, bound_);
             scaling_.added_later += eased.added / whole;
             ledger_.background += eased.energy;
             stable_ = share * eased.dt;
@@ -161,9 +159,12 @@ void Model::block_forces(std::size_t k, const BondView& view, double elapsed, bo
     loads.clear_kept(block);
     out.bonds = bond_forces(spheres.view(), bonds, view, k, loads.rows(), elapsed, measure, out.failures);
     out.contacts = contact_forces(spheres, contacts, k, elapsed, dt_, loads);
-    out.platens.resize(platens.size());
-    for (std::size_t p = 0; p < platens.size(); ++p) {
-        out.platens[p] = platen_forces(spheres, platens[p], block, elapsed, dt_, loads);
+    out.walls.clear();
+    for (auto& platen : walls.platens) {
+        out.walls.push_back(platen_forces(spheres, platen, block, elapsed, dt_, loads));
+    }
+    for (auto& surface : walls.surfaces) {
+        out.walls.push_back(surface_forces(spheres, surface, k, block, elapsed, dt_, loads));
     }
     out.pressure = 0.0;
     for (auto& pressure : pressures) {
@@ -204,7 +205,7 @@ void Model::forces(double elapsed, bool measure) {
     team_->run(loads.blocks().size(), [&](std::size_t k) { block_forces(k, view, elapsed, keep); });
 
     double stored = 0.0;
-    std::vector<PlatenSums> at_platens(platens.size());
+    std::vector<WallSums> at_walls(walls.platens.size() + walls.surfaces.size());
     for (const auto& sums : block_sums_) {
         ledger_.damage += sums.bonds.damage;
         ledger_.plastic += sums.bonds.plastic;
@@ -212,23 +213,34 @@ void Model::forces(double elapsed, bool measure) {
         ledger_.dashpots += sums.bonds.dashpot + sums.contacts.dashpot;
         ledger_.pressure += sums.pressure;
         stored += sums.contacts.stored;
-        for (std::size_t p = 0; p < platens.size(); ++p) {
-            at_platens[p].add(sums.platens[p]);
+        for (std::size_t p = 0; p < at_walls.size(); ++p) {
+            at_walls[p].add(sums.walls[p]);
         }
         failures_.insert(failures_.end(), sums.failures.begin(), sums.failures.end());
     }
     broken_ += failures_.size();
-    for (std::size_t p = 0; p < platens.size(); ++p) {
-        Platen& platen = platens[p];
-        platen.reaction = at_platens[p].reaction;
-        platen.thrust = at_platens[p].thrust;
-        platen.touching = at_platens[p].touching;
-        ledger_.friction += at_platens[p].friction;
-        ledger_.dashpots += at_platens[p].dashpot;
-        stored += at_platens[p].stored;
+    for (const auto& sums : at_walls) {
+        ledger_.friction += sums.friction;
+        ledger_.dashpots += sums.dashpot;
+        stored += sums.stored;
+    }
+    for (std::size_t p = 0; p < walls.platens.size(); ++p) {
+        Platen& platen = walls.platens[p];
+        platen.reaction = at_walls[p].reaction;
+        platen.thrust = at_walls[p].thrust;
+        platen.touching = at_walls[p].touching;
         // The platen pushes back with -reaction while it moves by velocity dt.
         ledger_.platens -= 0.5 * platen.face.axis.dot(platen.reaction + reactions_[p]) * platen.velocity * elapsed;
         reactions_[p] = platen.reaction;
+    }
+    for (std::size_t p = 0; p < walls.surfaces.size(); ++p) {
+        Surface& surface = walls.surfaces[p];
+        const WallSums& before = surface.sums;
+        const WallSums& now = at_walls[walls.platens.size() + p];
+        ledger_.platens -=
+            0.5 * elapsed *
+            (surface.motion.velocity.dot(before.reaction + now.reaction) + surface.motion.spin.dot(before.torque + now.torque));
+        surface.sums = now;
     }
     if (averaged_) {
         fail_by_averaged_stress();
@@ -240,7 +252,7 @@ void Model::forces(double elapsed, bool measure) {
 
 // Bonds whose spheres' averaged stress has passed their criterion fail now, in bond order.
 void Model::fail_by_averaged_stress() {
-    const auto single = sphere_stresses(spheres, bonds, contacts, platens, pressures, volume_);
+    const auto single = sphere_stresses(spheres, bonds, contacts, walls, pressures, volume_);
     averaged_criteria(bonds, vicinity_stresses(bonds, single, volume_), averaged_value_, shear_governs_);
     for (const auto& block : bonds.blocks) {
         const BondLaw& law = bonds.laws[block.law];
@@ -259,18 +271,39 @@ void Model::fail_by_averaged_stress() {
     }
 }
 
-void Model::motion(const std::vector<double>& speeds, bool measure) {
-    const bool first = steps_ == 0;
-    if (measure && !numerics_.gravity.isZero()) {
-        ledger_.body = 0.0;
-        for (std::size_t k = 0; k < spheres.size(); ++k) {
-            ledger_.body += (scaling_.mass.empty() ? spheres.mass[k] : scaling_.mass[k]) *
-                            numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
-        }
+// Work of gravity since the start.
+double Model::body_work() const {
+    double sum = 0.0;
+    const std::size_t alone = clusters.empty() ? spheres.size() : clusters.begin;
+    for (std::size_t k = 0; k < alone; ++k) {
+        sum += (scaling_.mass.empty() ? spheres.mass[k] : scaling_.mass[k]) *
+               numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
     }
+    for (std::size_t k = 0; k < clusters.size(); ++k) {
+        sum += clusters.mass[k] * numerics_.gravity.dot(clusters.position[k] - clusters.start[k]);
+    }
+    return sum;
+}
+
+// Moves spheres, then clusters, part by part.
+MotionSums Model::move(bool measure) {
+    const bool first = steps_ == 0;
     const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity};
-    team_->run(loads.blocks().size(), [&](std::size_t k) {
-        block_motion_[k] = move_spheres(spheres, loads, loads.blocks()[k], rule, dt_, first, measure || first);
+    const auto& blocks = loads.blocks();
+    const auto alone = static_cast<std::uint32_t>(clusters.empty() ? spheres.size() : clusters.begin);
+    constexpr std::size_t bodies_per_part = 32;
+    const std::size_t parts = (clusters.size() + bodies_per_part - 1) / bodies_per_part;
+    block_motion_.resize(blocks.size() + parts);
+    team_->run(blocks.size() + parts, [&](std::size_t k) {
+        if (k >= blocks.size()) {
+            const std::size_t begin = (k - blocks.size()) * bodies_per_part;
+            block_motion_[k] = move_clusters(clusters, spheres, loads, begin, std::min(begin + bodies_per_part, clusters.size()), rule, dt_,
+                                             first, measure);
+            return;
+        }
+        SphereBlock block = blocks[k];
+        block.end = std::min(block.end, alone);
+        block_motion_[k] = block.begin < block.end ? move_spheres(spheres, loads, block, rule, dt_, first, measure) : MotionSums{};
     });
     MotionSums sums;
     for (const auto& part : block_motion_) {
@@ -279,15 +312,31 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
         sums.unbalanced += part.unbalanced;
         sums.fastest = std::isnan(part.fastest) ? part.fastest : std::max(sums.fastest, part.fastest);
     }
+    return sums;
+}
+
+void Model::motion(const std::vector<double>& speeds, bool measure) {
+    const bool first = steps_ == 0;
+    if (measure && !numerics_.gravity.isZero()) {
+        ledger_.body = body_work();
+    }
+    const MotionSums sums = move(measure || first);
     if (first) {
         ledger_.initial = sums.kinetic + ledger_.elastic;
     }
     double fastest = std::sqrt(sums.fastest);
-    for (std::size_t p = 0; p < platens.size(); ++p) {
-        platens[p].move(speeds[p], dt_);
+    travel_.went(fastest * dt_);
+    surface_travel_.went(fastest * dt_);
+    for (std::size_t p = 0; p < walls.platens.size(); ++p) {
+        walls.platens[p].move(speeds[p], dt_);
         fastest = std::max(fastest, std::fabs(speeds[p]));
     }
-    travel_ += fastest * dt_;
+    double surface_speed = 0.0;
+    for (auto& surface : walls.surfaces) {
+        surface.move(dt_);
+        surface_speed = std::max(surface_speed, surface.motion.velocity.norm() + surface.motion.spin.norm() * surface.reach());
+    }
+    surface_way_ += surface_speed * dt_;
     fastest_ = fastest;
     ledger_.background += sums.damping_work;
     if (measure) {
@@ -313,8 +362,11 @@ void Model::restored() {
     const std::size_t n = contacts.i.size();
     contacts.normal.assign(n, 0.0);
     set_up_contacts(spheres, materials, weight_, contacts);
-    for (auto& platen : platens) {
+    for (auto& platen : walls.platens) {
         set_up_platen(spheres, materials, platen);
+    }
+    for (auto& surface : walls.surfaces) {
+        set_up_surface(spheres, materials, surface);
     }
     arrange();
     bonds.worn.assign(bonds.size(), 1);

@@ -10,13 +10,15 @@
 
 #include "core/bonds/bond_forces.hpp"
 #include "core/bonds/bonds.hpp"
-#include "core/boundaries/platen.hpp"
 #include "core/boundaries/pressure.hpp"
+#include "core/boundaries/walls.hpp"
 #include "core/contacts/contacts.hpp"
 #include "core/energy/ledger.hpp"
+#include "core/motion/cluster_motion.hpp"
 #include "core/motion/mass_scaling.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/stable_step.hpp"
+#include "core/motion/travel.hpp"
 #include "core/parallel/team.hpp"
 #include "core/particles/spheres.hpp"
 
@@ -62,12 +64,12 @@ struct NumericalFailure : std::runtime_error {
 class Model {
   public:
     /// Takes spheres (with the velocities they have at time 0, at rest or set afterwards), their materials and bonds. weight: area weights
-    /// of `make_bonds`. Throws UnstableStep.
-    Model(Spheres spheres, std::vector<Material> materials, Bonds bonds, std::vector<double> weight, std::vector<Platen> platens,
-          const Numerics& numerics);
+    /// of `make_bonds`; clusters: those that the last spheres belong to. Throws UnstableStep.
+    Model(Spheres spheres, std::vector<Material> materials, Bonds bonds, std::vector<double> weight, Walls walls, const Numerics& numerics,
+          Clusters clusters = {});
 
-    /// One step: search, forces, motion, time. speeds: velocity of each platen during the step, m/s. With `measure` the ledger's stored
-    /// and kinetic terms, the bonds' output arrays and the measures are brought up to date.
+    /// One step: search, forces, motion, time. speeds: velocity of each platen during the step, m/s; surfaces move as they are driven. With
+    /// `measure` the ledger's stored and kinetic terms, the bonds' output arrays and the measures are brought up to date.
     void step(const std::vector<double>& speeds, bool measure);
 
     [[nodiscard]] double dt() const { return dt_; }              ///< s
@@ -101,7 +103,8 @@ class Model {
     Bonds bonds;
     Contacts contacts;
     Loads loads; ///< what is added between steps acts in the next one
-    std::vector<Platen> platens;
+    Clusters clusters;
+    Walls walls;
     std::vector<Pressure> pressures; ///< set their values between steps
 
   private:
@@ -109,19 +112,21 @@ class Model {
     struct BlockSums {
         BondDissipation bonds;
         ContactEnergies contacts;
-        std::vector<PlatenSums> platens;
-        double pressure = 0.0; // work, J
+        std::vector<WallSums> walls; // platens, then surfaces
+        double pressure = 0.0;       // work, J
         std::vector<BondFailure> failures;
     };
 
     void search();
-    void keep_stable();
+    void keep_stable(bool first);
     void arrange();
     void average();
     void forces(double elapsed, bool measure);
     void block_forces(std::size_t block, const BondView& view, double elapsed, bool measure);
     void fail_by_averaged_stress();
     void motion(const std::vector<double>& speeds, bool measure);
+    MotionSums move(bool measure);
+    [[nodiscard]] double body_work() const;
     void check() const;
 
     std::vector<double> weight_;
@@ -129,8 +134,9 @@ class Model {
     StepBound bound_;
     MassScaling scaling_;
     double skin_ = 0.0;
-    double travel_ = 0.0;     // bound on how far anything has moved since the last search, m
-    VectorField searched_at_; // positions then
+    Travel travel_;            // since neighbours and platens were listed
+    Travel surface_travel_;    // since surfaces were
+    double surface_way_ = 0.0; // of the surfaces since then, m
     std::vector<double> platens_at_;
     double dt_ = 0.0;
     double first_dt_ = 0.0;
@@ -163,10 +169,13 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     field("position", spheres.position);
     field("velocity", spheres.velocity);
     field("spin", spheres.spin);
+    if (!clusters.empty()) {
+        clusters.visit_state(visit);
+    }
     visit("mass", spheres.mass);
     visit("inertia", spheres.inertia);
     visit("mass_added_later", scaling_.added_later);
-    field("searched_at", searched_at_);
+    field("searched_at", travel_.from);
     field("bond_slip", bonds.slip);
     visit("bond_plastic", bonds.plastic);
     visit("bond_damage_n", bonds.damage_n);
@@ -184,9 +193,9 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("contact_j", contacts.j);
     field("contact_slip", contacts.slip);
     field("contact_viscous", contacts.viscous);
-    for (std::size_t p = 0; p < platens.size(); ++p) {
+    for (std::size_t p = 0; p < walls.platens.size(); ++p) {
         const std::string name = "platen_" + std::to_string(p) + "_";
-        Platen& platen = platens[p];
+        Platen& platen = walls.platens[p];
         visit(name + "position", platen.position);
         visit(name + "velocity", platen.velocity);
         visit(name + "searched_at", platens_at_[p]);
@@ -197,11 +206,19 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit(name + "reaction_y", reactions_[p].y());
         visit(name + "reaction_z", reactions_[p].z());
     }
+    for (std::size_t p = 0; p < walls.surfaces.size(); ++p) {
+        walls.surfaces[p].visit_state("surface_" + std::to_string(p) + "_", visit);
+    }
+    if (!walls.surfaces.empty()) {
+        field("surfaces_searched_at", surface_travel_.from);
+        visit("surfaces_travel", surface_travel_.bound);
+        visit("surfaces_way", surface_way_);
+    }
     for (std::size_t p = 0; p < pressures.size(); ++p) {
         visit("pressure_" + std::to_string(p), pressures[p].value);
         field("pressure_" + std::to_string(p) + "_force", pressures[p].force);
     }
-    visit("travel", travel_);
+    visit("travel", travel_.bound);
     visit("dt", dt_);
     visit("first_dt", first_dt_);
     visit("stable", stable_);

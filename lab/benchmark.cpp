@@ -60,7 +60,7 @@ void break_it(Bench& bench) {
     const double allowed = 0.02 * bench.specimen.shape.height; // the specimen would be rubble
     for (double travel = 0.0; travel < allowed; travel += 2.0 * v * model.dt()) {
         model.step({v, -v}, false);
-        const double force = std::fabs(model.platens[0].reaction.z() - model.platens[1].reaction.z());
+        const double force = std::fabs(model.walls.platens[0].reaction.z() - model.walls.platens[1].reaction.z());
         peak = std::max(peak, force);
         if (model.broken() > model.bonds.size() / 100 && force < 0.8 * peak) {
             return;

@@ -28,7 +28,7 @@ void sphere_states(const Bench& bench, std::vector<double>& stress, std::vector<
         damage[k] /= std::max(1.0, static_cast<double>(in.offset[k + 1] - in.offset[k]));
     }
     stress.clear();
-    for (const Mat3& t : sphere_stresses(m.spheres, m.bonds, m.contacts, m.platens, m.pressures, volume)) {
+    for (const Mat3& t : sphere_stresses(m.spheres, m.bonds, m.contacts, m.walls, m.pressures, volume)) {
         stress.insert(stress.end(), {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)});
     }
 }
@@ -127,7 +127,7 @@ std::vector<std::vector<Vec3>> outline(const Platen& p, const Shape& shape) {
 report::Geometry platen_fields(const Bench& bench) {
     report::Geometry g;
     std::vector<double> thrust;
-    for (const auto& p : bench.model->platens) {
+    for (const auto& p : bench.model->walls.platens) {
         for (const auto& cell : outline(p, bench.specimen.shape)) {
             g.cells.emplace_back();
             for (const Vec3& corner : cell) {

@@ -126,18 +126,18 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
         off_ = detached_spheres(m);
         off_at_ = m.broken();
     }
-    const double bottom = m.platens[0].load();
-    const double top = m.platens[1].load();
-    const double strain = 1.0 - (m.platens[1].position - m.platens[0].position) / press.length;
+    const double bottom = m.walls.platens[0].load();
+    const double top = m.walls.platens[1].load();
+    const double strain = 1.0 - (m.walls.platens[1].position - m.walls.platens[0].position) / press.length;
     const Mat3 stretched = mean_strain(m);
-    const Vec3 along = m.platens[0].face.axis;
+    const Vec3 along = m.walls.platens[0].face.axis;
     const Vec3 across = Vec3::UnitZ().cross(along);
     const double gauge = press.bands ? gauges_.axial_strain(m.spheres.position, off_) : along.dot(stretched * along);
     const double girth = press.bands ? girth_strain(m) : across.dot(stretched * across);
     const double volume = press.bands ? gauge + (m.spheres.planar ? 1.0 : 2.0) * girth : stretched.trace();
     double held = 0.0;
-    for (std::size_t p = 2; p < m.platens.size(); ++p) {
-        held += m.platens[p].thrust;
+    for (std::size_t p = 2; p < m.walls.platens.size(); ++p) {
+        held += m.walls.platens[p].thrust;
     }
     const double lateral = press.side_area > 0.0 ? held / press.side_area : mark.pressure;
     const Mat3 inner = mean_stress(m, inner_);
@@ -168,7 +168,7 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
                           static_cast<double>(broken_tension_),
                           static_cast<double>(broken_shear_),
                           m.measures().unbalanced_ratio,
-                          m.platens[0].velocity - m.platens[1].velocity});
+                          m.walls.platens[0].velocity - m.walls.platens[1].velocity});
     const Ledger& l = m.ledger();
     energy.rows.push_back({m.time(), strain, l.platens, l.pressure, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots,
                            l.background, l.residual()});

@@ -35,7 +35,7 @@ bool parted(const Model& model) {
     const auto piece = fragments(model);
     std::vector<std::uint8_t> touches(model.spheres.size(), 0);
     for (std::size_t p = 0; p < 2; ++p) {
-        for (const auto s : model.platens[p].sphere) {
+        for (const auto s : model.walls.platens[p].sphere) {
             touches[static_cast<std::size_t>(piece[static_cast<std::size_t>(s)])] |= static_cast<std::uint8_t>(1u << p);
         }
     }

@@ -117,7 +117,7 @@ class Run {
     void step(const Stage& stage, bool due) {
         const bool measured = due || stage.control->looks(view_);
         drive_ = stage.control->drive(view_);
-        speeds_.assign(model_.platens.size(), 0.0);
+        speeds_.assign(model_.walls.platens.size(), 0.0);
         speeds_[0] = 0.5 * bench_.press.sense * drive_.closing;
         speeds_[1] = -speeds_[0];
         for (auto& pressure : model_.pressures) {
@@ -169,9 +169,13 @@ class Run {
 
 } // namespace
 
-double BenchView::strain() const { return press.sense * (1.0 - (model.platens[1].position - model.platens[0].position) / press.length); }
+double BenchView::strain() const {
+    return press.sense * (1.0 - (model.walls.platens[1].position - model.walls.platens[0].position) / press.length);
+}
 
-double BenchView::stress() const { return press.sense * 0.5 * (model.platens[0].load() + model.platens[1].load()) / press.area; }
+double BenchView::stress() const {
+    return press.sense * 0.5 * (model.walls.platens[0].load() + model.walls.platens[1].load()) / press.area;
+}
 
 double BenchView::girth_strain() const { return instruments.girth_strain(model); }
 

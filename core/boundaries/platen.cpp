@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/contacts/rolling.hpp"
-
 namespace proveta {
 
 Platen make_platen(const Spheres& spheres, const Face& face, double position, double friction, double area, double capping) {
@@ -85,62 +83,19 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
     }
 }
 
-void PlatenSums::add(const PlatenSums& other) {
-    stored += other.stored;
-    friction += other.friction;
-    dashpot += other.dashpot;
-    reaction += other.reaction;
-    thrust += other.thrust;
-    touching += other.touching;
-}
-
-namespace {
-
-// A tangential displacement brought into the plane across n as that turns, its size kept.
-Vec3 across(const Vec3& u, const Vec3& n) {
-    const Vec3 flat = u - n * n.dot(u);
-    const double size = flat.norm();
-    return size > 0.0 ? Vec3(flat * (u.norm() / size)) : flat;
-}
-
-} // namespace
-
-PlatenSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& block, double elapsed, double dt, Loads& loads) {
-    PlatenSums sum;
+WallSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& block, double elapsed, double dt, Loads& loads) {
+    WallSums sum;
     const ListedRange range = listed_in(p.sphere, block);
     for (std::size_t k = range.begin; k < range.end; ++k) {
         const auto s = static_cast<std::size_t>(p.sphere[k]);
         const auto [distance, n, within] = p.foot(spheres.position.at(s));
-        const double approach = (p.velocity * p.face.axis - spheres.velocity.at(s)).dot(n) * elapsed;
-        // Contact point at the foot of the sphere: the platen slides along its axis only where that lies across the normal.
-        const Vec3 arm = -distance * n;
-        const Vec3 relative = p.velocity * p.face.axis - spheres.velocity.at(s) - spheres.spin.at(s).cross(arm);
-        const Vec3 sliding = (relative - n * n.dot(relative)) * elapsed;
-        const double slip[3] = {sliding.x(), sliding.y(), sliding.z()};
-        const Vec3 old_slip = across(p.slip.at(k), n);
-        const Vec3 viscous = p.viscous.at(k);
-        const Vec3 viscous_t = viscous - n * n.dot(viscous);
-        contact::State<double> state{
-            {old_slip.x(), old_slip.y(), old_slip.z()}, viscous.dot(n), {viscous_t.x(), viscous_t.y(), viscous_t.z()}};
-        const auto r = advance(p.law[k], p.contact_distance[k] - distance, approach, elapsed, slip, state);
-        p.slip.set(k, {state.u_t[0], state.u_t[1], state.u_t[2]});
-        p.viscous.set(k, Vec3(state.viscous_t[0], state.viscous_t[1], state.viscous_t[2]) + state.viscous * n);
-        const Vec3 force = Vec3(r.shear[0], r.shear[1], r.shear[2]) + r.normal * n;
-        p.force.set(k, force);
-        Vec3 torque = arm.cross(force);
-        if (p.law[k].rolling_arm > 0.0) {
-            const double spin[3] = {spheres.spin.x[s], spheres.spin.y[s], spheres.spin.z[s]};
-            const auto rolling = rolling::torque<double>(p.law[k].rolling_arm, r.normal, p.law[k].reduced_inertia, spin, dt);
-            torque += Vec3(rolling.torque[0], rolling.torque[1], rolling.torque[2]);
-            sum.friction += rolling.power * elapsed;
-        }
-        loads.add(s, force, torque);
-        sum.reaction -= force;
-        sum.thrust += r.normal;
-        sum.touching += r.normal > 0.0 ? 1 : 0;
-        sum.stored += r.stored;
-        sum.friction += r.friction_work;
-        sum.dashpot += r.dashpot_work;
+        WallHistory history{p.slip.at(k), p.viscous.at(k)};
+        const auto load =
+            advance_wall(spheres, s, p.law[k], p.contact_distance[k], {distance, n, p.velocity * p.face.axis}, elapsed, dt, history, sum);
+        p.slip.set(k, history.slip);
+        p.viscous.set(k, history.viscous);
+        p.force.set(k, load.force);
+        loads.add(s, load.force, load.torque);
     }
     return sum;
 }

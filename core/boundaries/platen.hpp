@@ -7,23 +7,11 @@
 #include <vector>
 
 #include "core/bonds/material.hpp"
+#include "core/boundaries/wall_contact.hpp"
 #include "core/contacts/loads.hpp"
-#include "core/contacts/loose.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
-
-/// Sums over a platen's contacts of one step, or over those of one block of spheres; energies in J.
-struct PlatenSums {
-    double stored = 0.0;
-    double friction = 0.0;
-    double dashpot = 0.0;
-    Vec3 reaction = Vec3::Zero(); ///< force of the specimen on the platen, N
-    double thrust = 0.0;          ///< sum of the normal forces, N
-    int touching = 0;
-
-    void add(const PlatenSums& other);
-};
 
 /// The form of a surface that moves along `axis`. Flat, its plane stands across the axis at a position along it; hollow, it is the inside
 /// of a cylinder about a line along z, whose nearest point to what it presses on the way along the axis is at that position. A ring about
@@ -111,6 +99,6 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
 
 /// Advances the platen's contacts with one block of spheres by `elapsed` seconds and adds their forces to the loads. dt: the step that the
 /// forces will act for, s.
-PlatenSums platen_forces(const Spheres& spheres, Platen& platen, const SphereBlock& block, double elapsed, double dt, Loads& loads);
+WallSums platen_forces(const Spheres& spheres, Platen& platen, const SphereBlock& block, double elapsed, double dt, Loads& loads);
 
 } // namespace proveta

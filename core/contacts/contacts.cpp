@@ -45,10 +45,13 @@ bool bonded(const Bonds& bonds, const Pair& p) {
 
 } // namespace
 
-Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials,
+Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const Clusters& clusters, const std::vector<Material>& materials,
                          const std::vector<double>& weight, double skin, const Contacts& old) {
     auto pairs = find_pairs(spheres.position, spheres.radius, 1.0, skin);
-    std::erase_if(pairs, [&](const Pair& p) { return bonded(bonds, p); });
+    std::erase_if(pairs, [&](const Pair& p) {
+        const std::int32_t body = clusters.of(static_cast<std::size_t>(p.i));
+        return bonded(bonds, p) || (body >= 0 && body == clusters.of(static_cast<std::size_t>(p.j)));
+    });
 
     Contacts c;
     c.resize(pairs.size());

@@ -8,6 +8,7 @@
 #include "core/contacts/incidence.hpp"
 #include "core/contacts/loads.hpp"
 #include "core/contacts/loose.hpp"
+#include "core/particles/clusters.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -42,9 +43,9 @@ struct ContactEnergies {
     double dashpot = 0.0;
 };
 
-/// Lists anew all unbonded pairs nearer than R_i + R_j + skin, keeping the history of those that were listed. weight: area weights of
-/// `make_bonds`; skin in m.
-Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials,
+/// Lists anew all unbonded pairs of different bodies nearer than R_i + R_j + skin, keeping the history of those that were listed. weight:
+/// area weights of `make_bonds`; skin in m.
+Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const Clusters& clusters, const std::vector<Material>& materials,
                          const std::vector<double>& weight, double skin, const Contacts& old);
 
 /// Fills in what follows from the pairs themselves: contact distances, laws, lever shares, incidence.

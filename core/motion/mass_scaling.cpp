@@ -43,22 +43,25 @@ double best_step(double allowed, const std::vector<SphereDemand>& demand, const 
 
 // Restitution follows the masses.
 void set_up_laws(const Spheres& s, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& contacts,
-                 std::vector<Platen>& platens) {
+                 Walls& walls) {
     set_up_contacts(s, materials, weight, contacts);
-    for (auto& platen : platens) {
+    for (auto& platen : walls.platens) {
         set_up_platen(s, materials, platen);
+    }
+    for (auto& surface : walls.surfaces) {
+        set_up_surface(s, materials, surface);
     }
 }
 
 } // namespace
 
 MassScaling scale_masses(Spheres& s, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
-                         Contacts& contacts, std::vector<Platen>& platens, double skin, double share, StepBound& bound) {
+                         Contacts& contacts, Walls& walls, const Clusters& clusters, double skin, double share, StepBound& bound) {
     MassScaling out;
     const std::vector<double> mass = s.mass;
     const std::vector<double> inertia = s.inertia;
     const double total = std::accumulate(mass.begin(), mass.end(), 0.0);
-    out.step_before = out.step_after = bound.limit(s, bonds, contacts, platens, skin);
+    out.step_before = out.step_after = bound.limit({s, bonds, contacts, walls, clusters}, skin);
     if (share <= 0.0) {
         return out;
     }
@@ -69,7 +72,7 @@ MassScaling scale_masses(Spheres& s, const Bonds& bonds, const std::vector<Mater
     double longest = 0.0;
     tuned.level();
     for (int sweep = 0; sweep < 12; ++sweep) {
-        const auto demand = tuned.demands(s, bonds, contacts, platens, skin);
+        const auto demand = tuned.demands({s, bonds, contacts, walls, clusters}, skin);
         const double dt = best_step(share * total, demand, mass, mass, factor);
         if (dt > longest) {
             longest = dt;
@@ -83,14 +86,14 @@ MassScaling scale_masses(Spheres& s, const Bonds& bonds, const std::vector<Mater
     bound = best;
     // Then the masses. Restitution follows them and the bound follows restitution: a few rounds.
     for (int round = 0; round < 4; ++round) {
-        best_step(share * total, bound.demands(s, bonds, contacts, platens, skin), s.mass, mass, factor);
+        best_step(share * total, bound.demands({s, bonds, contacts, walls, clusters}, skin), s.mass, mass, factor);
         for (std::size_t k = 0; k < s.size(); ++k) {
             s.mass[k] = factor[k] * mass[k];
             s.inertia[k] = factor[k] * inertia[k];
         }
-        set_up_laws(s, materials, weight, contacts, platens);
+        set_up_laws(s, materials, weight, contacts, walls);
     }
-    out.step_after = bound.limit(s, bonds, contacts, platens, skin);
+    out.step_after = bound.limit({s, bonds, contacts, walls, clusters}, skin);
     for (std::size_t k = 0; k < s.size(); ++k) {
         out.added += (s.mass[k] - mass[k]) / total;
         out.spheres += factor[k] > 1.0 ? 1 : 0;
@@ -103,14 +106,15 @@ MassScaling scale_masses(Spheres& s, const Bonds& bonds, const std::vector<Mater
 }
 
 Easing ease_step(Spheres& s, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
-                 Contacts& contacts, std::vector<Platen>& platens, double skin, double dt, double allowed, const StepBound& bound) {
+                 Contacts& contacts, Walls& walls, const Clusters& clusters, double skin, double dt, double allowed,
+                 const StepBound& bound) {
     Easing out;
     constexpr double shorter = 0.9;
     constexpr double round_off = 1.0 + 1e-6;
     out.dt = dt;
     // Heavier spheres have stronger dashpots, which ask for a little more again: a few rounds, or a shorter step.
     for (int round = 0; round < 200; ++round) {
-        const auto offenders = bound.offenders(s, bonds, contacts, platens, skin, out.dt);
+        const auto offenders = bound.offenders({s, bonds, contacts, walls, clusters}, skin, out.dt);
         if (offenders.empty()) {
             break;
         }
@@ -131,7 +135,7 @@ Easing ease_step(Spheres& s, const Bonds& bonds, const std::vector<Material>& ma
             s.inertia[k] *= f;
         }
         out.added += more;
-        set_up_laws(s, materials, weight, contacts, platens);
+        set_up_laws(s, materials, weight, contacts, walls);
     }
     return out;
 }

@@ -21,11 +21,11 @@ struct MassScaling {
 /// Makes spheres heavier, mass and inertia by the same factor, so that the bound on the stable step becomes as large as an added mass of
 /// `share` of the specimen's allows: each sphere gets the least factor with which the bound holds at one common step, and bisection finds
 /// the largest step whose factors stay within the share. `bound` is split anew, so that heavy neighbours carry what they can of a spring.
-/// Dashpots of bonds keep their constants; `contacts` and `platens`, which must list what is near, get their laws anew, because
+/// Dashpots of bonds keep their constants; `contacts` and `walls`, which must list what is near, get their laws anew, because
 /// restitution follows the mass. Stiffness, strength and every static state are those of the true masses: only motion feels the scaling. A
-/// share of 0 changes nothing. Call it once, on true masses.
+/// share of 0 changes nothing; nor is anything changed where there are clusters. Call it once, on true masses.
 MassScaling scale_masses(Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
-                         Contacts& contacts, std::vector<Platen>& platens, double skin, double share, StepBound& bound);
+                         Contacts& contacts, Walls& walls, const Clusters& clusters, double skin, double share, StepBound& bound);
 
 /// What `ease_step` did.
 struct Easing {
@@ -37,6 +37,7 @@ struct Easing {
 /// In the course of a calculation: makes spheres that new contacts have made unstable at a step of dt seconds as heavy as that step asks
 /// for, momentum kept. With more to add than `allowed` kg the step is shortened as far as that reaches.
 Easing ease_step(Spheres& spheres, const Bonds& bonds, const std::vector<Material>& materials, const std::vector<double>& weight,
-                 Contacts& contacts, std::vector<Platen>& platens, double skin, double dt, double allowed, const StepBound& bound);
+                 Contacts& contacts, Walls& walls, const Clusters& clusters, double skin, double dt, double allowed,
+                 const StepBound& bound);
 
 } // namespace proveta

@@ -19,11 +19,17 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 struct Block {
     Mat6 stiffness = Mat6::Zero();
     Mat6 damping = Mat6::Zero();
-    double rolling = 0.0; // 2 dt C of the rolling resistances, over the inertia
+    double rolling = 0.0;           // 2 dt C of the rolling resistances, over the inertia
+    Mat3 softer = Mat3::Identity(); // of a body: scales torques by the root of its smallest moment over its own
 
-    // A spring with outward normal n: stiffnesses and dashpots, lever arm; `weight` is the sphere's share of it.
-    void add(const Vec3& n, const Stiffness& spring, double lever, double weight) {
+    // A spring with outward normal n: stiffnesses and dashpots, lever arm; `weight` is the sphere's share of it. base: of the sphere's
+    // centre against that of the body which it belongs to.
+    void add(const Vec3& n, const Stiffness& spring, double lever, double weight, const Vec3& base = Vec3::Zero()) {
         const auto& [k_n, k_t, c_n, c_t] = spring;
+        if (!base.isZero()) {
+            add_at(base + lever * n, n, spring, weight);
+            return;
+        }
         const Mat3 nn = n * n.transpose();
         const Mat3 tt = Mat3::Identity() - nn;
         Mat3 cross;
@@ -38,6 +44,16 @@ struct Block {
             damping.topRightCorner<3, 3>() -= weight * c_t * lever * cross;
             damping.bottomLeftCorner<3, 3>() += weight * c_t * lever * cross;
         }
+    }
+
+    // The same at any point of a body, `arm` from its centre.
+    void add_at(const Vec3& arm, const Vec3& n, const Stiffness& spring, double weight) {
+        Eigen::Matrix<double, 6, 3> lift; // force at the point to force and torque at the centre
+        lift << Mat3::Identity(), softer * (Mat3() << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0).finished();
+        const Mat3 nn = n * n.transpose();
+        const Mat3 tt = Mat3::Identity() - nn;
+        stiffness += weight * lift * (spring.k_n * nn + spring.k_t * tt) * lift.transpose();
+        damping += weight * lift * (spring.c_n * nn + spring.c_t * tt) * lift.transpose();
     }
 
     // Bending and twisting stiffness of a bond.
@@ -80,7 +96,7 @@ struct Block {
 // Adds every spring of a sphere; spring(p, d) are the stiffnesses of pair p at distance d, rolling(p) its inertia against rolling or 0.
 template <class Pairs, class Spring, class Rolling>
 void add_pairs(const Spheres& s, const Pairs& pairs, const Spring& spring, const Rolling& rolling, std::size_t sphere,
-               const std::vector<double>& g, Block& block) {
+               const std::vector<double>& g, Block& block, const Vec3& base = Vec3::Zero()) {
     const auto& in = pairs.incidence;
     for (auto e = in.offset[sphere]; e < in.offset[sphere + 1]; ++e) {
         const auto p = in.entry[e] >> 1;
@@ -90,7 +106,7 @@ void add_pairs(const Spheres& s, const Pairs& pairs, const Spring& spring, const
         const double d = to.norm();
         const double share = second ? 1.0 - pairs.share[p] : pairs.share[p];
         const double weight = 1.0 + g[other] / g[sphere];
-        block.add(to / d, spring(p, d), share * d, weight);
+        block.add(to / d, spring(p, d), share * d, weight, base);
         block.rolling += weight * 2.0 * rolling::share * rolling(p) / s.inertia[sphere];
     }
 }
@@ -187,62 +203,101 @@ void StepBound::hand_over(const std::vector<double>& factor) {
 
 namespace {
 
-// Which platens, and which of their contacts, each sphere has: (platen, entry).
-using Walls = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
+// Which walls each sphere is near: their numbers, platens before surfaces, and where it stands in their lists.
+using NearWalls = std::vector<std::vector<std::pair<std::size_t, std::size_t>>>;
 
-Walls walls_of(const Spheres& s, const std::vector<Platen>& platens) {
-    Walls walls(s.size());
-    for (std::size_t p = 0; p < platens.size(); ++p) {
-        for (std::size_t e = 0; e < platens[p].sphere.size(); ++e) {
-            walls[static_cast<std::size_t>(platens[p].sphere[e])].emplace_back(p, e);
+NearWalls near_walls(const Spheres& s, const Walls& walls) {
+    NearWalls near(s.size());
+    const auto list = [&](std::size_t wall, const std::vector<std::int32_t>& spheres) {
+        for (std::size_t e = 0; e < spheres.size(); ++e) {
+            near[static_cast<std::size_t>(spheres[e])].emplace_back(wall, e);
         }
+    };
+    for (std::size_t p = 0; p < walls.platens.size(); ++p) {
+        list(p, walls.platens[p].sphere);
     }
-    return walls;
+    for (std::size_t p = 0; p < walls.surfaces.size(); ++p) {
+        list(walls.platens.size() + p, walls.surfaces[p].sphere);
+    }
+    return near;
+}
+
+void add_platen(const Platen& platen, std::size_t e, const Vec3& centre, double skin, const Vec3& base, Block& block) {
+    const auto foot = platen.foot(centre);
+    block.add(-foot.normal, stiffness_at(platen.law[e], platen.contact_distance[e] - foot.distance + skin), platen.contact_distance[e], 1.0,
+              base);
+    block.rolling += platen.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
+}
+
+// Every contact that the sphere would have if it were larger by the skin counts.
+void add_surface(const Surface& surface, std::size_t e, const Vec3& centre, double radius, double skin, const Vec3& base, Block& block) {
+    std::vector<FaceContact> found;
+    double_hierarchy(surface.geometry, surface.faces_near(e), surface.to_own(centre), radius + skin, found);
+    for (const auto& contact : found) {
+        const Vec3 to = surface.to_space(contact.point) - centre;
+        const double distance = to.norm();
+        block.add(distance > 0.0 ? Vec3(to / distance) : Vec3(surface.attitude * surface.geometry.plane[contact.face].normal),
+                  stiffness_at(surface.law[e], radius - distance + skin), radius, 1.0, base);
+        block.rolling += surface.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
+    }
 }
 
 } // namespace
 
-// Calls use(k, block) for every sphere, with everything that may act on it before the next search.
-template <class Use>
-void StepBound::each_block(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens, double skin,
-                           const Use& use) const {
-    const Springs springs(bonds);
-    const auto law = laws_of(bonds);
-    const Walls walls = walls_of(s, platens);
+// Calls use(k, block) for every sphere, with everything that may act on it before the next search. What acts on a cluster counts as one
+// with its first sphere.
+template <class Use> void StepBound::each_block(const Assembly& a, double skin, const Use& use) const {
+    const Spheres& s = a.spheres;
+    const Springs springs(a.bonds);
+    const auto law = laws_of(a.bonds);
+    const NearWalls near = near_walls(s, a.walls);
+    const auto add = [&](std::size_t k, const Vec3& base, Block& block) {
+        add_bonds(s, a.bonds, springs, law, k, share_, skin, block);
+        if (a.contacts.size() > 0) {
+            add_pairs(
+                s, a.contacts,
+                [&](std::size_t p, double d) { return stiffness_at(a.contacts.law[p], a.contacts.contact_distance[p] - d + skin); },
+                [&](std::size_t p) { return a.contacts.law[p].rolling_arm > 0.0 ? a.contacts.law[p].reduced_inertia : 0.0; }, k, single_,
+                block, base);
+        }
+        for (const auto& [wall, e] : near[k]) {
+            if (wall < a.walls.platens.size()) {
+                add_platen(a.walls.platens[wall], e, s.position.at(k), skin, base, block);
+            } else {
+                add_surface(a.walls.surfaces[wall - a.walls.platens.size()], e, s.position.at(k), s.radius[k], skin, base, block);
+            }
+        }
+    };
 #pragma omp parallel for schedule(static) if (s.size() > 256)
     for (std::size_t k = 0; k < s.size(); ++k) {
         Block block;
-        add_bonds(s, bonds, springs, law, k, share_, skin, block);
-        if (contacts.size() > 0) {
-            add_pairs(
-                s, contacts,
-                [&](std::size_t p, double d) { return stiffness_at(contacts.law[p], contacts.contact_distance[p] - d + skin); },
-                [&](std::size_t p) { return contacts.law[p].rolling_arm > 0.0 ? contacts.law[p].reduced_inertia : 0.0; }, k, single_,
-                block);
-        }
-        for (const auto& [p, e] : walls[k]) {
-            const auto& platen = platens[p];
-            const auto foot = platen.foot(s.position.at(k));
-            block.add(-foot.normal, stiffness_at(platen.law[e], platen.contact_distance[e] - foot.distance + skin),
-                      platen.contact_distance[e], 1.0);
-            block.rolling += platen.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
+        const std::int32_t body = a.clusters.of(k);
+        if (body < 0) {
+            add(k, Vec3::Zero(), block);
+        } else if (const auto b = static_cast<std::size_t>(body); a.clusters.first[b] == k) {
+            const rotation::State& turning = a.clusters.turning[b];
+            const Mat3 axes = turning.attitude.toRotationMatrix();
+            const Vec3 share = (turning.inertia.minCoeff() * turning.inertia.cwiseInverse()).cwiseSqrt();
+            block.softer = axes * share.asDiagonal() * axes.transpose();
+            for (std::size_t member = k; member < a.clusters.first[b + 1]; ++member) {
+                add(member, s.position.at(member) - a.clusters.position[b], block);
+            }
         }
         use(k, block);
     }
 }
 
-std::vector<SphereDemand> StepBound::demands(const Spheres& s, const Bonds& bonds, const Contacts& contacts,
-                                             const std::vector<Platen>& platens, double skin) const {
+std::vector<SphereDemand> StepBound::demands(const Assembly& a, double skin) const {
+    const Spheres& s = a.spheres;
     std::vector<SphereDemand> out(s.size());
-    each_block(s, bonds, contacts, platens, skin,
-               [&](std::size_t k, const Block& block) { out[k] = block.demand(s.mass[k], s.inertia[k]); });
+    each_block(a, skin, [&](std::size_t k, const Block& block) { out[k] = block.demand(s.mass[k], s.inertia[k]); });
     return out;
 }
 
-double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens, double skin,
-                        double enough) const {
+double StepBound::limit(const Assembly& a, double skin, double enough) const {
+    const Spheres& s = a.spheres;
     std::atomic<double> lowest{enough};
-    each_block(s, bonds, contacts, platens, skin, [&](std::size_t k, const Block& block) {
+    each_block(a, skin, [&](std::size_t k, const Block& block) {
         // Eigenvalues are only worked out where cheaper tests do not settle the matter: what is left out could not be the lowest.
         double known = lowest.load(std::memory_order_relaxed);
         const double beyond = known * (1.0 + 1e-9); // a margin over rounding, so that the lowest does not depend on who comes first
@@ -256,10 +311,10 @@ double StepBound::limit(const Spheres& s, const Bonds& bonds, const Contacts& co
     return lowest.load();
 }
 
-std::vector<StepBound::Offender> StepBound::offenders(const Spheres& s, const Bonds& bonds, const Contacts& contacts,
-                                                      const std::vector<Platen>& platens, double skin, double dt) const {
+std::vector<StepBound::Offender> StepBound::offenders(const Assembly& a, double skin, double dt) const {
+    const Spheres& s = a.spheres;
     std::vector<double> factor(s.size(), 0.0);
-    each_block(s, bonds, contacts, platens, skin, [&](std::size_t k, const Block& block) {
+    each_block(a, skin, [&](std::size_t k, const Block& block) {
         if (block.demand_at_most(s.mass[k], s.inertia[k]).factor(dt) > 1.0 && !block.stable_at(dt, s.mass[k], s.inertia[k])) {
             factor[k] = block.demand(s.mass[k], s.inertia[k]).factor(dt);
         }

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "core/bonds/bonds.hpp"
-#include "core/boundaries/platen.hpp"
+#include "core/boundaries/walls.hpp"
 #include "core/contacts/contacts.hpp"
+#include "core/particles/clusters.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -21,6 +22,15 @@ struct SphereDemand {
     [[nodiscard]] double step() const; ///< largest step, s
     /// Factor on mass and inertia at which a step of dt seconds is the largest; below 1 where the sphere could be lighter.
     [[nodiscard]] double factor(double dt) const { return (stiffness * dt + 2.0 * damping) * dt / left; }
+};
+
+/// What acts on the spheres of a model.
+struct Assembly {
+    const Spheres& spheres;
+    const Bonds& bonds;
+    const Contacts& contacts;
+    const Walls& walls;
+    const Clusters& clusters;
 };
 
 /// Lower bound on the critical step of velocity Verlet with velocities that lag half a step: lambda_max[M^-1 (dt^2 K + 2 dt C)] <= 4.
@@ -39,27 +49,22 @@ class StepBound {
     /// spheres that both ask for mass an even split asks for least.
     void hand_over(const std::vector<double>& factor);
 
-    /// The bound in s, with the pairs of the contact list and the platens taken as closed. skin: how much overlaps may still grow before
+    /// The bound in s, with the pairs of the contact list and the walls taken as closed. skin: how much overlaps may still grow before
     /// the next search, m; laws that stiffen with overlap count as stiff as they can get by then. enough: a step in s beyond which nobody
     /// asks; the answer is at most this, and costs little when no sphere is below it.
-    [[nodiscard]] double limit(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens,
-                               double skin = 0.0, double enough = 1e300) const;
+    [[nodiscard]] double limit(const Assembly& assembly, double skin = 0.0, double enough = 1e300) const;
     /// The same sphere by sphere: the bound is the lowest of their steps.
-    [[nodiscard]] std::vector<SphereDemand> demands(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
-                                                    const std::vector<Platen>& platens, double skin = 0.0) const;
+    [[nodiscard]] std::vector<SphereDemand> demands(const Assembly& assembly, double skin = 0.0) const;
 
     /// The spheres that are not stable at a step of dt seconds, ascending, and the factor on mass and inertia at which each would be.
     struct Offender {
         std::uint32_t sphere;
         double factor;
     };
-    [[nodiscard]] std::vector<Offender> offenders(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts,
-                                                  const std::vector<Platen>& platens, double skin, double dt) const;
+    [[nodiscard]] std::vector<Offender> offenders(const Assembly& assembly, double skin, double dt) const;
 
   private:
-    template <class Use>
-    void each_block(const Spheres& spheres, const Bonds& bonds, const Contacts& contacts, const std::vector<Platen>& platens, double skin,
-                    const Use& use) const;
+    template <class Use> void each_block(const Assembly& assembly, double skin, const Use& use) const;
 
     std::vector<double> share_;  // g for bonds, tuned to their network
     std::vector<double> single_; // g for any other pair: the sphere's own frequency

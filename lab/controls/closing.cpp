@@ -33,8 +33,8 @@ bool LedClosing::looks(const BenchView& bench) const { return rate_.looks_at(ben
 void LedClosing::stepped(const BenchView& bench, bool measured) {
     if (measured) {
         const Ledger& l = bench.model.ledger();
-        const double lower = bench.model.platens[0].load();
-        const double upper = bench.model.platens[1].load();
+        const double lower = bench.model.walls.platens[0].load();
+        const double upper = bench.model.walls.platens[1].load();
         rate_.observe({bench.strain() - origin_.value_or(0.0), l.platens + l.pressure, l.damage, l.kinetic, l.elastic,
                        bench.model.measures().unbalanced_ratio,
                        std::fabs(lower - upper) / std::max(0.5 * std::fabs(lower + upper), 1e-300)});

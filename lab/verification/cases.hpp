@@ -15,6 +15,15 @@ Case sphere_between_plates();
 Case damped_critical_step();
 Case cylinder_precession();
 
+// Chapter 3
+Case facet_edge_vertex();
+Case normal_continuity();
+Case concave_error();
+Case tangential_continuity();
+Case multi_contact();
+Case sliding_to_rolling();
+Case brachistochrone();
+
 // Chapter 5
 Case regular_lattice();
 Case dempack_bond();

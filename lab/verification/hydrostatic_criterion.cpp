@@ -49,7 +49,7 @@ Confined confine(const std::string& criterion, double pressure) {
         }
     }
     std::sort(out.inside.begin(), out.inside.end());
-    const auto stress = sphere_stresses(model.spheres, model.bonds, model.contacts, model.platens, model.pressures,
+    const auto stress = sphere_stresses(model.spheres, model.bonds, model.contacts, model.walls, model.pressures,
                                         tributary_volumes(model.spheres, model.bonds));
     double count = 0.0;
     for (std::size_t k = 0; k < stress.size(); ++k) {

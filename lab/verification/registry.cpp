@@ -15,6 +15,14 @@ const std::vector<Case>& cases() {
         sphere_between_plates(),
         damped_critical_step(),
         cylinder_precession(),
+        // chapter 3
+        facet_edge_vertex(),
+        normal_continuity(),
+        concave_error(),
+        tangential_continuity(),
+        multi_contact(),
+        sliding_to_rolling(),
+        brachistochrone(),
         // chapter 5
         regular_lattice(),
         dempack_bond(),

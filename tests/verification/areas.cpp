@@ -131,7 +131,7 @@ TEST_CASE("the specimen that was asked for: thesis mesh 3D-2") {
     CHECK(st.outside == 0);
     CHECK(st.fabric_deviator < 0.02);
     // Flat, well covered ends: spheres at the wall cover at least three quarters of each end with their discs.
-    for (const auto& platen : bench.model->platens) {
+    for (const auto& platen : bench.model->walls.platens) {
         CHECK(platen.area_weight < 1.0 / 0.75);
     }
 }

@@ -37,7 +37,7 @@ TEST_CASE("averaged stress: the spheres of a pressed column carry its stress, sy
     const TestData data = run_protocol(deck, bench, {[](const TestData&, double) {}, [] {}, [] { return false; }});
     const Model& m = *bench.model;
     const auto volume = tributary_volumes(m.spheres, m.bonds);
-    const auto stress = sphere_stresses(m.spheres, m.bonds, m.contacts, m.platens, m.pressures, volume);
+    const auto stress = sphere_stresses(m.spheres, m.bonds, m.contacts, m.walls, m.pressures, volume);
     Mat3 sum = Mat3::Zero();
     double whole = 0.0;
     for (std::size_t k = 0; k < stress.size(); ++k) {

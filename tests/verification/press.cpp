@@ -46,11 +46,11 @@ TEST_CASE("column: spheres in a row between platens are springs in series") {
         const double v = k < 2000 ? 0.5 * speed * k / 2000.0 : 0.5 * speed;
         model.step({v, -v}, k % 1000 == 0);
     }
-    const double closed = 2 * r * n - (model.platens[1].position - model.platens[0].position) - 1.0 * speed * model.dt();
+    const double closed = 2 * r * n - (model.walls.platens[1].position - model.walls.platens[0].position) - 1.0 * speed * model.dt();
     // E A / R at each platen and E A / 2R at each bond: a bar of length 2 R n.
     const double expected = 1e9 * area / (2 * r * n) * closed;
-    CHECK(-model.platens[0].reaction.z() == Approx(expected).epsilon(2e-3));
-    CHECK(model.platens[1].reaction.z() == Approx(expected).epsilon(2e-3));
+    CHECK(-model.walls.platens[0].reaction.z() == Approx(expected).epsilon(2e-3));
+    CHECK(model.walls.platens[1].reaction.z() == Approx(expected).epsilon(2e-3));
 }
 
 TEST_CASE("ledger: the residual stays below 1 % of the work, past the peak") {

@@ -17,7 +17,7 @@ TEST_CASE("stable-step: the bound on a specimen lies below the power iteration's
     const double critical = 2.0 / std::sqrt(largest_eigenvalue(m.spheres, m.bonds, 2000));
     Contacts none;
     none.incidence = make_incidence(m.spheres.size(), {}, {});
-    const double bound = StepBound(m.spheres, m.bonds).limit(m.spheres, m.bonds, none, {});
+    const double bound = StepBound(m.spheres, m.bonds).limit({m.spheres, m.bonds, none, Walls(), Clusters()});
     CHECK(bound <= critical * (1 + 1e-6));
     CHECK(bound >= 0.9 * critical);
     CHECK(m.stable_step() <= bound);

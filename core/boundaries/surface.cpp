@@ -1,0 +1,184 @@
+#include "core/boundaries/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace proveta {
+
+Surface::Surface(std::string called, SurfaceMesh mesh, const Material& wall, double friction_coefficient)
+    : name(std::move(called)), geometry(std::move(mesh)), tree(geometry.mesh), material(wall), friction(friction_coefficient) {
+    for (const auto& v : geometry.mesh.vertex) {
+        reach_ = std::max(reach_, v.norm());
+    }
+}
+
+void Surface::move(double dt) {
+    motion = drive;
+    origin += dt * motion.velocity;
+    if (!motion.spin.isZero()) {
+        attitude = (rotation::turn(motion.spin, dt) * attitude).normalized();
+    }
+}
+
+Surface::Flat Surface::flattened() const {
+    Flat flat;
+    for (const Vec3& v :
+         {origin, Vec3(attitude.vec()), Vec3(attitude.w(), 0, 0), motion.velocity, motion.spin, sums.reaction, sums.torque}) {
+        flat.pose.insert(flat.pose.end(), v.begin(), v.end());
+    }
+    flat.lists.push_back(static_cast<std::int32_t>(sphere.size()));
+    flat.lists.insert(flat.lists.end(), sphere.begin(), sphere.end());
+    for (const auto* list : {&near_first, &near_face}) {
+        for (const auto k : *list) {
+            flat.lists.push_back(static_cast<std::int32_t>(k));
+        }
+    }
+    for (const auto& block : touches) {
+        for (const auto& t : block) {
+            flat.touches.insert(flat.touches.end(),
+                                {t.sphere, static_cast<std::int32_t>(t.face), static_cast<std::int32_t>(t.feature), t.index});
+            for (const Vec3& v : {t.point, t.history.slip, t.history.viscous}) {
+                flat.values.insert(flat.values.end(), v.begin(), v.end());
+            }
+        }
+    }
+    return flat;
+}
+
+void Surface::restore(const Flat& flat) {
+    const auto vector = [](const std::vector<double>& from, std::size_t k) { return Vec3(from[3 * k], from[3 * k + 1], from[3 * k + 2]); };
+    origin = vector(flat.pose, 0);
+    attitude.vec() = vector(flat.pose, 1);
+    attitude.w() = flat.pose[6];
+    motion = {vector(flat.pose, 3), vector(flat.pose, 4)};
+    sums.reaction = vector(flat.pose, 5);
+    sums.torque = vector(flat.pose, 6);
+    const auto n = static_cast<std::ptrdiff_t>(flat.lists[0]);
+    const auto begin = flat.lists.begin() + 1;
+    sphere.assign(begin, begin + n);
+    near_first.assign(begin + n, begin + 2 * n + 1);
+    near_face.assign(begin + 2 * n + 1, flat.lists.end());
+    for (auto& block : touches) {
+        block.clear();
+    }
+    for (std::size_t k = 0; k < flat.touches.size() / 4; ++k) {
+        const auto* t = &flat.touches[4 * k];
+        touches[static_cast<std::size_t>(t[0]) / spheres_per_block].push_back(
+            {t[0],
+             static_cast<std::uint32_t>(t[1]),
+             static_cast<Feature>(t[2]),
+             static_cast<std::uint8_t>(t[3]),
+             vector(flat.values, 3 * k),
+             {vector(flat.values, 3 * k + 1), vector(flat.values, 3 * k + 2)},
+             Vec3::Zero()});
+    }
+}
+
+void search_surface(const Spheres& spheres, const std::vector<Material>& materials, double skin, Surface& surface) {
+    surface.sphere.clear();
+    surface.near_first.assign(1, 0);
+    surface.near_face.clear();
+    const auto box = surface.tree.box(); // only spheres in the intersection of both domains look for faces
+    for (std::size_t s = 0; s < spheres.size() && !box.isEmpty(); ++s) {
+        const Vec3 own = surface.to_own(spheres.position.at(s));
+        const double reach = spheres.radius[s] + skin;
+        if (box.squaredExteriorDistance(own) > reach * reach) {
+            continue;
+        }
+        const std::size_t before = surface.near_face.size();
+        surface.tree.near(own, reach, surface.near_face);
+        const auto kept = std::remove_if(surface.near_face.begin() + static_cast<std::ptrdiff_t>(before), surface.near_face.end(),
+                                         [&](std::uint32_t face) { return !cuts(surface.geometry, face, own, reach); });
+        surface.near_face.erase(kept, surface.near_face.end());
+        if (surface.near_face.size() > before) {
+            surface.sphere.push_back(static_cast<std::int32_t>(s));
+            surface.near_first.push_back(static_cast<std::uint32_t>(surface.near_face.size()));
+        }
+    }
+    set_up_surface(spheres, materials, surface);
+}
+
+void set_up_surface(const Spheres& spheres, const std::vector<Material>& materials, Surface& surface) {
+    std::vector<LoosePair> pairs;
+    pairs.reserve(materials.size());
+    for (const auto& m : materials) {
+        pairs.push_back(wall_pair(m, surface.material, surface.friction));
+    }
+    surface.law.clear();
+    for (const auto id : surface.sphere) {
+        const auto s = static_cast<std::size_t>(id);
+        surface.law.push_back(wall_contact(pairs[static_cast<std::size_t>(spheres.material[s])],
+                                           {spheres.radius[s], spheres.mass[s], spheres.inertia[s]}, spheres.section(s)));
+    }
+    surface.touches.resize((spheres.size() + spheres_per_block - 1) / spheres_per_block);
+}
+
+namespace {
+
+// Takes the history of the old contact nearest to a point, and takes it away from the others that might want it.
+WallHistory inherit(std::vector<SurfaceTouch>& old, std::size_t begin, std::size_t end, const Vec3& point, double bound) {
+    std::size_t nearest = end;
+    double square = bound * bound;
+    for (std::size_t k = begin; k < end; ++k) {
+        const double d = (old[k].point - point).squaredNorm();
+        if (old[k].sphere >= 0 && d <= square) {
+            square = d;
+            nearest = k;
+        }
+    }
+    if (nearest == end) {
+        return {};
+    }
+    old[nearest].sphere = -1;
+    return old[nearest].history;
+}
+
+} // namespace
+
+WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t number, const SphereBlock& block, double elapsed, double dt,
+                        Loads& loads) {
+    WallSums sum;
+    thread_local std::vector<FaceContact> found;
+    thread_local std::vector<SurfaceTouch> old;
+    auto& touches = surface.touches[number];
+    old.swap(touches);
+    touches.clear();
+    const ListedRange range = listed_in(surface.sphere, block);
+    std::size_t begin = 0;
+    const Mat3 turn = surface.attitude.toRotationMatrix();
+    for (std::size_t k = range.begin; k < range.end; ++k) {
+        const auto s = static_cast<std::size_t>(surface.sphere[k]);
+        const double radius = spheres.radius[s];
+        const Vec3 centre = spheres.position.at(s);
+        const Vec3 own = turn.transpose() * (centre - surface.origin);
+        double_hierarchy(surface.geometry, surface.faces_near(k), own, radius, found);
+        while (begin < old.size() && old[begin].sphere < surface.sphere[k]) {
+            ++begin;
+        }
+        std::size_t end = begin;
+        while (end < old.size() && old[end].sphere == surface.sphere[k]) {
+            ++end;
+        }
+        for (const auto& contact : found) {
+            const Vec3 point = surface.origin + turn * contact.point;
+            const double distance = std::sqrt(contact.square);
+            const Vec3 velocity = surface.velocity_at(point);
+            const Vec3 normal =
+                distance > 0.0 ? Vec3((centre - point) / distance) : Vec3(turn * surface.geometry.plane[contact.face].normal);
+            const Vec3 turning = 0.5 * normal.dot(surface.motion.spin + spheres.spin.at(s)) * normal;
+            const double way = (velocity - spheres.velocity.at(s)).norm() + spheres.spin.at(s).norm() * radius;
+            SurfaceTouch touch{surface.sphere[k], contact.face, contact.feature, contact.index, contact.point, {}, {}};
+            touch.history = inherit(old, begin, end, contact.point, 1.01 * way * elapsed + 1e-9 * radius);
+            const auto load = advance_wall(spheres, s, surface.law[k], radius, {distance, normal, velocity, surface.motion.spin, turning},
+                                           elapsed, dt, touch.history, sum);
+            touch.force = load.force;
+            sum.torque -= (point - surface.origin).cross(load.force);
+            loads.add(s, load.force, load.torque);
+            touches.push_back(touch);
+        }
+        begin = end;
+    }
+    return sum;
+}
+
+} // namespace proveta

@@ -1,0 +1,38 @@
+#include "core/particles/clusters.hpp"
+
+namespace proveta {
+
+void Clusters::add(Spheres& spheres, const ClusterShape& shape, double density, const Vec3& centre, const rotation::Quaternion& attitude,
+                   int material) {
+    if (empty()) {
+        begin = spheres.size();
+        first.assign(1, static_cast<std::uint32_t>(begin));
+    }
+    const auto body = static_cast<std::int32_t>(size());
+    mass.push_back(density * shape.volume);
+    position.push_back(centre);
+    start.push_back(centre);
+    velocity.push_back(Vec3::Zero());
+    turning.push_back(rotation::start(density * shape.inertia, attitude, Vec3::Zero()));
+    for (std::size_t k = 0; k < shape.radius.size(); ++k) {
+        offset.push_back(shape.centre[k]);
+        body_.push_back(body);
+        spheres.add(centre + attitude * shape.centre[k], shape.radius[k], density, 0, material);
+        spheres.mass.back() = mass.back();
+        spheres.inertia.back() = density * shape.inertia.minCoeff();
+    }
+    first.push_back(static_cast<std::uint32_t>(spheres.size()));
+}
+
+void Clusters::place(std::size_t body, double dt, Spheres& spheres) const {
+    const Mat3 turn = turning[body].attitude.toRotationMatrix();
+    for (std::size_t s = first[body]; s < first[body + 1]; ++s) {
+        const Vec3 arm = turn * offset[s - begin];
+        const Vec3 to = position[body] + arm;
+        spheres.velocity.set(s, dt > 0.0 ? Vec3((to - spheres.position.at(s)) / dt) : Vec3(velocity[body] + turning[body].spin.cross(arm)));
+        spheres.position.set(s, to);
+        spheres.spin.set(s, turning[body].spin);
+    }
+}
+
+} // namespace proveta

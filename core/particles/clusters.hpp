@@ -1,0 +1,72 @@
+// Clusters: rigid bodies made of overlapping spheres, which alone meet anything (thesis 2.7).
+#pragma once
+
+#include <vector>
+
+#include "core/motion/rotation.hpp"
+#include "core/particles/spheres.hpp"
+
+namespace proveta {
+
+/// The form of a cluster in its principal frame: centre of mass at the origin, axes along the principal axes of inertia.
+struct ClusterShape {
+    std::vector<Vec3> centre;    ///< of its spheres, m
+    std::vector<double> radius;  ///< m
+    double volume = 0.0;         ///< m3
+    Vec3 inertia = Vec3::Zero(); ///< principal moments for a density of 1 kg/m3, m5
+};
+
+/// Bodies among the spheres of a model. Their spheres stand behind all others, one body's after another's. Velocities and momenta live half
+/// a step behind the positions, as those of spheres do.
+struct Clusters {
+    std::size_t begin = 0;              ///< first sphere that belongs to a cluster; without clusters the number of spheres
+    std::vector<std::uint32_t> first{}; ///< first sphere of each; one more than there are clusters, or none
+    std::vector<Vec3> offset{};         ///< centre of sphere `begin + k` in its body's principal frame, m
+    std::vector<double> mass{};         ///< kg
+    std::vector<Vec3> position{};       ///< centres of mass, m
+    std::vector<Vec3> start{};          ///< these at the start, m
+    std::vector<Vec3> velocity{};       ///< m/s
+    std::vector<rotation::State> turning{};
+
+    [[nodiscard]] std::size_t size() const { return mass.size(); }
+    [[nodiscard]] bool empty() const { return mass.empty(); }
+    /// Which body a sphere belongs to; -1: none.
+    [[nodiscard]] std::int32_t of(std::size_t sphere) const { return sphere < begin || empty() ? -1 : body_[sphere - begin]; }
+
+    /// Appends a cluster at rest, and its spheres to the spheres, which then must be the last to come. density in kg/m3 of the whole body.
+    /// The spheres carry the body's mass and its smallest principal moment, which their contacts' dashpots need.
+    void add(Spheres& spheres, const ClusterShape& shape, double density, const Vec3& centre, const rotation::Quaternion& attitude,
+             int material = 0);
+
+    /// Puts a body's spheres where the body is, and gives them the velocities that took them there in dt seconds; dt = 0: those of the
+    /// body.
+    void place(std::size_t body, double dt, Spheres& spheres) const;
+
+    /// Calls visit as `Model::visit_state` does.
+    template <class Visit> void visit_state(Visit&& visit);
+
+  private:
+    std::vector<std::int32_t> body_; // of each sphere from `begin` on
+};
+
+template <class Visit> void Clusters::visit_state(Visit&& visit) {
+    std::vector<double> flat;
+    for (std::size_t k = 0; k < size(); ++k) {
+        for (const Vec3& v : {position[k], velocity[k], turning[k].momentum, turning[k].spin}) {
+            flat.insert(flat.end(), v.begin(), v.end());
+        }
+        const auto& q = turning[k].attitude.coeffs();
+        flat.insert(flat.end(), q.begin(), q.end());
+    }
+    visit("clusters", flat);
+    for (std::size_t k = 0; k < size(); ++k) {
+        const double* at = &flat[16 * k];
+        position[k] = Vec3(at[0], at[1], at[2]);
+        velocity[k] = Vec3(at[3], at[4], at[5]);
+        turning[k].momentum = Vec3(at[6], at[7], at[8]);
+        turning[k].spin = Vec3(at[9], at[10], at[11]);
+        turning[k].attitude.coeffs() = Eigen::Vector4d(at[12], at[13], at[14], at[15]);
+    }
+}
+
+} // namespace proveta
