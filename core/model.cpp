@@ -38,9 +38,8 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
              Clusters bodies)
     : spheres(std::move(s)), materials(std::move(m)), bonds(std::move(b)), clusters(std::move(bodies)), walls(std::move(rigid)),
       weight_(std::move(weight)), numerics_(numerics), bound_(spheres, bonds), team_(std::make_unique<Team>(omp_get_max_threads())) {
-    const double mean_radius =
-        std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / std::max<double>(1.0, static_cast<double>(spheres.size()));
-    skin_ = numerics_.skin * mean_radius;
+    mean_radius_ = mean_radius(spheres);
+    skin_ = numerics_.skin * mean_radius_;
     reactions_.assign(walls.platens.size(), Vec3::Zero());
     averaged_ = std::any_of(bonds.laws.begin(), bonds.laws.end(), [](const BondLaw& law) { return law.criterion != Criterion::bond; });
     if (averaged_) {
@@ -97,9 +96,9 @@ void Model::search() {
     for (std::size_t p = 0; p < platens_at_.size(); ++p) {
         platens_way = std::max(platens_way, std::fabs(walls.platens[p].position - platens_at_[p]));
     }
-    const bool neighbours = first || 2.0 * platens_way > skin_ || travel_.beyond(0.5 * skin_, spheres.position);
+    const bool neighbours = search_anew_ || 2.0 * platens_way > skin_ || travel_.beyond(0.5 * skin_, spheres.position);
     const bool surfaces =
-        !walls.surfaces.empty() && (first || surface_way_ > skin_ || surface_travel_.beyond(skin_ - surface_way_, spheres.position));
+        !walls.surfaces.empty() && (search_anew_ || surface_way_ > skin_ || surface_travel_.beyond(skin_ - surface_way_, spheres.position));
     if (neighbours) {
         contacts = search_contacts(spheres, bonds, clusters, materials, weight_, skin_, contacts);
         platens_at_.resize(walls.platens.size());
@@ -116,6 +115,7 @@ void Model::search() {
         surface_travel_.restart(spheres.position);
         surface_way_ = 0.0;
     }
+    search_anew_ = false;
     if (neighbours || surfaces) {
         keep_stable(first);
     }
@@ -126,26 +126,27 @@ void Model::search() {
 void Model::keep_stable(bool first) {
     const double share = damping_share(numerics_.damping);
     if (first) {
-        stable_ = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, skin_);
+        stable_ = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, growth());
         return;
     }
-    const double lowest = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, skin_, dt_ / share);
+    if (!numerics_.refuse_unstable) {
+        return; // the step stays as it is
+    }
+    const double lowest = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, growth(), dt_ / share);
     if (lowest >= dt_) {
         return;
     }
     stable_ = lowest;
-    if (numerics_.refuse_unstable) {
-        if (!scaling_.mass.empty()) {
-            const double whole = std::accumulate(scaling_.mass.begin(), scaling_.mass.end(), 0.0);
-            const double left = (numerics_.mass_scaling - scaling_.added_later) * whole;
-            const double wanted = dt_ / (numerics_.safety * share);
-            const Easing eased = ease_step(spheres, bonds, materials, weight_, contacts, walls, clusters, skin_, wanted, left, bound_);
-            scaling_.added_later += eased.added / whole;
-            ledger_.background += eased.energy;
-            stable_ = share * eased.dt;
-        }
-        dt_ = std::min(dt_, numerics_.safety * stable_);
+    if (!scaling_.mass.empty()) {
+        const double whole = std::accumulate(scaling_.mass.begin(), scaling_.mass.end(), 0.0);
+        const double left = (numerics_.mass_scaling - scaling_.added_later) * whole;
+        const double wanted = dt_ / (numerics_.safety * share);
+        const Easing eased = ease_step(spheres, bonds, materials, weight_, contacts, walls, clusters, skin_, wanted, left, bound_);
+        scaling_.added_later += eased.added / whole;
+        ledger_.background += eased.energy;
+        stable_ = share * eased.dt;
     }
+    dt_ = std::min(dt_, numerics_.safety * stable_);
 }
 
 // The rows of the loads follow the lists of pairs.
@@ -273,9 +274,8 @@ void Model::fail_by_averaged_stress() {
 
 // Work of gravity since the start.
 double Model::body_work() const {
-    double sum = 0.0;
-    const std::size_t alone = clusters.empty() ? spheres.size() : clusters.begin;
-    for (std::size_t k = 0; k < alone; ++k) {
+    double sum = body_gone_;
+    for (std::size_t k = 0; k < clusters.alone(spheres); ++k) {
         sum += (scaling_.mass.empty() ? spheres.mass[k] : scaling_.mass[k]) *
                numerics_.gravity.dot(spheres.position.at(k) - spheres.start.at(k));
     }
@@ -290,7 +290,7 @@ MotionSums Model::move(bool measure) {
     const bool first = steps_ == 0;
     const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity};
     const auto& blocks = loads.blocks();
-    const auto alone = static_cast<std::uint32_t>(clusters.empty() ? spheres.size() : clusters.begin);
+    const auto alone = static_cast<std::uint32_t>(clusters.alone(spheres));
     constexpr std::size_t bodies_per_part = 32;
     const std::size_t parts = (clusters.size() + bodies_per_part - 1) / bodies_per_part;
     block_motion_.resize(blocks.size() + parts);
@@ -351,7 +351,7 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
 }
 
 void Model::check() const {
-    const double sane = 0.1 * skin_ / numerics_.skin / dt_; // a tenth of a radius a step
+    const double sane = 0.1 * mean_radius_ / dt_; // a tenth of a radius a step
     if (!std::isfinite(ledger_.spent()) || !std::isfinite(fastest_) || fastest_ > sane) {
         throw NumericalFailure(text("at step ", steps_, " (time ", time_, " s) the calculation diverged: fastest sphere ", fastest_,
                                     " m/s, energy ", ledger_.spent(), " J"));
@@ -362,12 +362,7 @@ void Model::restored() {
     const std::size_t n = contacts.i.size();
     contacts.normal.assign(n, 0.0);
     set_up_contacts(spheres, materials, weight_, contacts);
-    for (auto& platen : walls.platens) {
-        set_up_platen(spheres, materials, platen);
-    }
-    for (auto& surface : walls.surfaces) {
-        set_up_surface(spheres, materials, surface);
-    }
+    set_up_walls(spheres, materials, walls);
     arrange();
     bonds.worn.assign(bonds.size(), 1);
     broken_ = bonds.size() - static_cast<std::size_t>(std::count(bonds.mode.begin(), bonds.mode.end(), std::uint8_t{0}));

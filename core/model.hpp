@@ -1,4 +1,4 @@
-// The calculation itself: spheres, bonds, contacts and platens, stepped through time.
+// The calculation itself: spheres, clusters, bonds, contacts and walls, stepped through time.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,9 @@ struct Numerics {
         0.0; ///< largest mass that may be added to spheres that limit the step, over the specimen's; as much again later on
     BackgroundDamping damping;
     Scheme scheme = Scheme::velocity_verlet;
-    Vec3 gravity = Vec3::Zero(); ///< m/s2
-    bool refuse_unstable = true; ///< false only to study how a scheme diverges: a step above the stable one is kept
+    Vec3 gravity = Vec3::Zero();          ///< m/s2
+    std::optional<double> overlap_growth; ///< by which overlaps are taken to grow until the next search, m; empty: the skin, their most
+    bool refuse_unstable = true;          ///< false only to study how a scheme diverges: a step above the stable one is kept
 };
 
 /// What `Model::step(true)` measured besides the ledger; values at the time of the last forces.
@@ -88,6 +89,16 @@ class Model {
     /// Number of threads of the steps to come; at first that of OpenMP. The results do not depend on it.
     void set_threads(int threads) { team_ = std::make_unique<Team>(threads); }
 
+    /// Another set of spheres and clusters takes over between two steps: some are new, some are gone, the rest may be numbered in another
+    /// order. origin: old number of each new sphere, -1: it is new; a cluster's spheres go together. Contacts that stay keep their
+    /// history, and the ledger's `initial` takes the energy that comes and goes. Only without bonds, platens, pressures and scaled
+    /// masses; throws std::logic_error otherwise.
+    void repopulate(Spheres spheres, Clusters clusters, const std::vector<std::int32_t>& origin);
+
+    /// Skin of the neighbour lists from the next search on, m; that search comes at the next step.
+    void set_skin(double skin);
+    [[nodiscard]] double skin() const { return skin_; } ///< m
+
     /// Hash (FNV-1a, 64 bits) of positions, velocities, spins and all bond and contact states: equal if and only if the bits are.
     [[nodiscard]] std::uint64_t state_hash() const;
 
@@ -127,13 +138,17 @@ class Model {
     void motion(const std::vector<double>& speeds, bool measure);
     MotionSums move(bool measure);
     [[nodiscard]] double body_work() const;
+    [[nodiscard]] double growth() const { return numerics_.overlap_growth.value_or(skin_); }
     void check() const;
 
     std::vector<double> weight_;
     Numerics numerics_;
     StepBound bound_;
     MassScaling scaling_;
+    double mean_radius_ = 0.0;
     double skin_ = 0.0;
+    bool search_anew_ = true;
+    double body_gone_ = 0.0;   // work of gravity on spheres that are gone, J
     Travel travel_;            // since neighbours and platens were listed
     Travel surface_travel_;    // since surfaces were
     double surface_way_ = 0.0; // of the surfaces since then, m
@@ -218,6 +233,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit("pressure_" + std::to_string(p), pressures[p].value);
         field("pressure_" + std::to_string(p) + "_force", pressures[p].force);
     }
+    visit("body_gone", body_gone_);
     visit("travel", travel_.bound);
     visit("dt", dt_);
     visit("first_dt", first_dt_);

@@ -245,6 +245,18 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     return r;
 }
 
+input::Json verdicts_of(const std::vector<report::Badge>& badges) {
+    input::Json out = input::Json::object();
+    for (const auto& b : badges) {
+        input::Json figures;
+        for (const auto& [what, figure] : b.figures) {
+            figures[what] = figure;
+        }
+        out[b.name] = {{"good", b.good}, {"verdict", b.verdict}, {"figures", figures}};
+    }
+    return out;
+}
+
 input::Json summary(const report::Record& r, const Bench& bench, const TestData& data, double seconds) {
     input::Json j;
     j["title"] = r.title;
@@ -254,13 +266,7 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
     for (const auto& s : r.results) {
         j["results"][s.name] = {{"value", s.value ? input::Json(*s.value) : input::Json()}, {"unit", s.unit}, {"formula", s.formula}};
     }
-    for (const auto& b : r.badges) {
-        input::Json figures;
-        for (const auto& [what, figure] : b.figures) {
-            figures[what] = figure;
-        }
-        j["verdicts"][b.name] = {{"good", b.good}, {"verdict", b.verdict}, {"figures", figures}};
-    }
+    j["verdicts"] = verdicts_of(r.badges);
     j["warnings"] = r.warnings;
     const auto& s = bench.statistics;
     j["specimen"] = {{"spheres", s.spheres},

@@ -31,6 +31,9 @@ MainCurve main_curve(const Protocol& protocol, const TestData& data);
 report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::vector<AcousticEvent>& acoustic,
                            const std::string& status);
 
+/// The badges as they stand in summary.json.
+input::Json verdicts_of(const std::vector<report::Badge>& badges);
+
 /// summary.json.
 input::Json summary(const report::Record& record, const Bench& bench, const TestData& data, double seconds);
 

@@ -219,8 +219,11 @@ std::string to_svg(const Picture& p) {
         const double w = std::clamp(l.weight, 0.0, 1.0);
         out += fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{:.2f}\" "
                            "stroke-opacity=\"{:.2f}\" stroke-linecap=\"round\"/>\n",
-                           scale * l.x0, -scale * l.z0, scale * l.x1, -scale * l.z1, l.mode == 1 ? "#c0392b" : "#d68910", 0.3 + 1.3 * w,
-                           0.25 + 0.75 * w);
+                           scale * l.x0, -scale * l.z0, scale * l.x1, -scale * l.z1,
+                           l.mode == 0   ? "#333333"
+                           : l.mode == 1 ? "#c0392b"
+                                         : "#d68910",
+                           0.3 + 1.3 * w, 0.25 + 0.75 * w);
     }
     return out + "</svg>\n";
 }

@@ -190,7 +190,7 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
         }
         b.blocks.back().end = static_cast<std::uint32_t>(at + 1);
     }
-    b.first_block.resize((spheres.size() + spheres_per_block - 1) / spheres_per_block + 1, static_cast<std::uint32_t>(b.blocks.size()));
+    b.first_block.resize(blocks_of(spheres.size()) + 1, static_cast<std::uint32_t>(b.blocks.size()));
     if (b.moments) {
         b.rotation.resize(b.size());
         b.couple.resize(b.size());

@@ -20,6 +20,50 @@ void Surface::move(double dt) {
     }
 }
 
+const LooseContact& Surface::law_of(const SurfaceTouch& touch) const {
+    return law[static_cast<std::size_t>(std::lower_bound(sphere.begin(), sphere.end(), touch.sphere) - sphere.begin())];
+}
+
+double Surface::overlap_of(const SurfaceTouch& touch, const Spheres& spheres) const {
+    const auto s = static_cast<std::size_t>(touch.sphere);
+    return spheres.radius[s] - (to_own(spheres.position.at(s)) - touch.point).norm();
+}
+
+double Surface::stiffness_along(const Vec3& direction, const Spheres& spheres) const {
+    double sum = 0.0;
+    for (const auto& block : touches) {
+        for (const auto& touch : block) {
+            const Vec3 normal = (spheres.position.at(static_cast<std::size_t>(touch.sphere)) - to_space(touch.point)).normalized();
+            const Stiffness k = stiffness_at(law_of(touch), overlap_of(touch, spheres));
+            const double straight = normal.dot(direction) * normal.dot(direction);
+            sum += k.k_n * straight + k.k_t * (1.0 - straight);
+        }
+    }
+    return sum;
+}
+
+double Surface::renumber(const Spheres& old, const std::vector<std::int32_t>& now, std::size_t spheres) {
+    std::vector<SurfaceTouch> kept;
+    double lost = 0.0;
+    for (const auto& block : touches) {
+        for (const auto& touch : block) {
+            const auto s = static_cast<std::size_t>(touch.sphere);
+            if (now[s] >= 0) {
+                kept.push_back(touch);
+                kept.back().sphere = now[s];
+            } else {
+                lost += stored_energy(law_of(touch), overlap_of(touch, old), touch.history.slip.norm());
+            }
+        }
+    }
+    std::stable_sort(kept.begin(), kept.end(), [](const SurfaceTouch& a, const SurfaceTouch& b) { return a.sphere < b.sphere; });
+    touches.assign(blocks_of(spheres), {});
+    for (const auto& touch : kept) {
+        touches[static_cast<std::size_t>(touch.sphere) / spheres_per_block].push_back(touch);
+    }
+    return lost;
+}
+
 Surface::Flat Surface::flattened() const {
     Flat flat;
     for (const Vec3& v :
@@ -110,7 +154,7 @@ void set_up_surface(const Spheres& spheres, const std::vector<Material>& materia
         surface.law.push_back(wall_contact(pairs[static_cast<std::size_t>(spheres.material[s])],
                                            {spheres.radius[s], spheres.mass[s], spheres.inertia[s]}, spheres.section(s)));
     }
-    surface.touches.resize((spheres.size() + spheres_per_block - 1) / spheres_per_block);
+    surface.touches.resize(blocks_of(spheres.size()));
 }
 
 namespace {
@@ -163,8 +207,7 @@ WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t nu
             const Vec3 point = surface.origin + turn * contact.point;
             const double distance = std::sqrt(contact.square);
             const Vec3 velocity = surface.velocity_at(point);
-            const Vec3 normal =
-                distance > 0.0 ? Vec3((centre - point) / distance) : Vec3(turn * surface.geometry.plane[contact.face].normal);
+            const Vec3 normal = surface.normal_at(contact, centre - point, distance);
             const Vec3 turning = 0.5 * normal.dot(surface.motion.spin + spheres.spin.at(s)) * normal;
             const double way = (velocity - spheres.velocity.at(s)).norm() + spheres.spin.at(s).norm() * radius;
             SurfaceTouch touch{surface.sphere[k], contact.face, contact.feature, contact.index, contact.point, {}, {}};

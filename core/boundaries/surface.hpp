@@ -60,11 +60,23 @@ struct Surface {
     [[nodiscard]] std::span<const std::uint32_t> faces_near(std::size_t listed) const {
         return {near_face.data() + near_first[listed], near_face.data() + near_first[listed + 1]};
     }
+    /// Unit vector of a contact: along `to` (m, `distance` long) between contact point and centre, or the face's where the centre lies on
+    /// it.
+    [[nodiscard]] Vec3 normal_at(const FaceContact& contact, const Vec3& to, double distance) const {
+        return distance > 0.0 ? Vec3(to / distance) : Vec3(attitude * geometry.plane[contact.face].normal);
+    }
     /// Farthest distance of a point of the surface from its origin, m.
     [[nodiscard]] double reach() const { return reach_; }
 
     /// Moves the surface as it is driven for dt seconds.
     void move(double dt);
+
+    /// Stiffness that the contacts of the last step have along a unit vector, N/m.
+    [[nodiscard]] double stiffness_along(const Vec3& direction, const Spheres& spheres) const;
+
+    /// Carries the contacts over to another numbering of the spheres: now[k] is the new number of sphere k, -1: gone. Spheres must be
+    /// listed anew afterwards. Returns the energy that contacts of gone spheres held, J; old: the spheres as they were.
+    double renumber(const Spheres& old, const std::vector<std::int32_t>& now, std::size_t spheres);
 
     /// As `Model::visit_state`; names begin with `prefix`.
     template <class Visit> void visit_state(const std::string& prefix, Visit&& visit) {
@@ -77,6 +89,9 @@ struct Surface {
     }
 
   private:
+    [[nodiscard]] const LooseContact& law_of(const SurfaceTouch& touch) const;
+    [[nodiscard]] double overlap_of(const SurfaceTouch& touch, const Spheres& spheres) const;
+
     // Everything that later steps depend on, in plain numbers.
     struct Flat {
         std::vector<double> pose;          // origin, attitude, motion, reaction and torque

@@ -72,28 +72,36 @@ SurfaceMesh disc_surface(double radius, int sides) {
     return mesh;
 }
 
-SurfaceMesh cylinder_surface(double bottom_radius, double top_radius, double height, int sides, bool bottom, bool top) {
+SurfaceMesh cylinder_surface(double bottom_radius, double top_radius, double height, int sides, bool bottom, bool top, int rows) {
     SurfaceMesh mesh;
-    const bool point_below = bottom_radius == 0.0;
-    const bool point_above = top_radius == 0.0;
-    const auto low = point_below ? std::vector<std::uint32_t>{put(mesh, Vec3::Zero())} : ring(mesh, bottom_radius, 0.0, sides);
-    const auto high = point_above ? std::vector<std::uint32_t>{put(mesh, {0, 0, height})} : ring(mesh, top_radius, height, sides);
-    for (int k = 0; k < sides; ++k) {
-        const auto a = static_cast<std::size_t>(k);
-        const auto b = static_cast<std::size_t>((k + 1) % sides);
-        if (point_below) {
-            mesh.add({low[0], high[b], high[a]});
-        } else if (point_above) {
-            mesh.add({low[a], low[b], high[0]});
-        } else {
-            mesh.add({low[a], low[b], high[b], high[a]});
+    using Ring = std::vector<std::uint32_t>; // of one corner: the apex
+    const auto level = [&](int k) {
+        const double t = static_cast<double>(k) / rows;
+        const double radius = bottom_radius + t * (top_radius - bottom_radius);
+        return radius == 0.0 ? Ring{put(mesh, {0, 0, t * height})} : ring(mesh, radius, t * height, sides);
+    };
+    const auto n = static_cast<std::size_t>(sides);
+    const Ring lowest = level(0);
+    Ring low = lowest;
+    for (int row = 0; row < rows; ++row) {
+        Ring high = level(row + 1);
+        for (std::size_t a = 0; a < n; ++a) {
+            const std::size_t b = (a + 1) % n;
+            if (low.size() == 1) {
+                mesh.add({low[0], high[b], high[a]});
+            } else if (high.size() == 1) {
+                mesh.add({low[a], low[b], high[0]});
+            } else {
+                mesh.add({low[a], low[b], high[b], high[a]});
+            }
         }
+        low = std::move(high);
     }
-    if (bottom && !point_below) {
-        mesh.add({low.rbegin(), low.rend()});
+    if (bottom && lowest.size() > 1) {
+        mesh.add({lowest.rbegin(), lowest.rend()});
     }
-    if (top && !point_above) {
-        mesh.add(high);
+    if (top && low.size() > 1) {
+        mesh.add(low);
     }
     return mesh;
 }

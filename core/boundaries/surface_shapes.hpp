@@ -12,8 +12,8 @@ SurfaceMesh box_surface(const Vec3& size);
 /// A disc about the origin across z: one polygon of `sides` corners on the circle.
 SurfaceMesh disc_surface(double radius, int sides);
 /// A cylinder or cone about z from 0 to `height`: side of quadrilaterals, or of triangles towards an apex, and the ends that are asked for.
-/// sides: number of faces around.
-SurfaceMesh cylinder_surface(double bottom_radius, double top_radius, double height, int sides, bool bottom, bool top);
+/// sides: number of faces around; rows: along the height.
+SurfaceMesh cylinder_surface(double bottom_radius, double top_radius, double height, int sides, bool bottom, bool top, int rows = 1);
 /// A sphere about the origin: an icosahedron whose faces are cut in four `cuts` times, corners on the sphere.
 SurfaceMesh sphere_surface(double radius, int cuts);
 /// A screw's blade about z: from inner to outer radius, rising by `pitch` a turn from z = 0 to `height`; `steps` quadrilaterals a turn,

@@ -87,8 +87,11 @@ void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materi
         const auto i = static_cast<std::size_t>(c.i[k]);
         const auto j = static_cast<std::size_t>(c.j[k]);
         c.first.resize(std::max(c.first.size(), i / spheres_per_block + 1), static_cast<std::uint32_t>(k));
-        const Vec3 to = spheres.start.at(j) - spheres.start.at(i);
-        c.contact_distance[k] = std::min(distance_at_rest(to.x(), to.y(), to.z()), spheres.radius[i] + spheres.radius[j]);
+        c.contact_distance[k] = spheres.radius[i] + spheres.radius[j];
+        if (spheres.packed) {
+            const Vec3 to = spheres.start.at(j) - spheres.start.at(i);
+            c.contact_distance[k] = std::min(distance_at_rest(to.x(), to.y(), to.z()), c.contact_distance[k]);
+        }
         const LoosePair& pair =
             pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
         const auto body = [&](std::size_t s) { return LooseBody{spheres.radius[s], spheres.mass[s], spheres.inertia[s]}; };
@@ -96,7 +99,7 @@ void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materi
         c.rolls = c.rolls || c.law[k].rolling_arm > 0.0;
         c.share[k] = lever_share(spheres, c.i[k], c.j[k]);
     }
-    c.first.resize((spheres.size() + spheres_per_block - 1) / spheres_per_block + 1, static_cast<std::uint32_t>(c.size()));
+    c.first.resize(blocks_of(spheres.size()) + 1, static_cast<std::uint32_t>(c.size()));
     c.incidence = make_incidence(spheres.size(), c.i, c.j);
 }
 

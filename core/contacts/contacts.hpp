@@ -18,7 +18,7 @@ struct Contacts {
     std::vector<std::int32_t> i, j;
     std::vector<std::int32_t> row_j;      ///< row of the loads that j's share goes to
     std::vector<double> share;            ///< lever arm of i over the distance
-    std::vector<double> contact_distance; ///< min(d(0), R_i + R_j): overlaps of a dense packing store nothing, m
+    std::vector<double> contact_distance; ///< R_i + R_j, of packed spheres at most d(0), m
     std::vector<LooseContact> law;        ///< constants; the linear law has the stiffness that a bond of the pair would have
     VectorField slip;                     ///< u_t, m
     VectorField viscous;                  ///< force of the dashpots on i at the last step, N

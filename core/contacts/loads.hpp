@@ -29,6 +29,9 @@ struct SphereBlock {
 
 constexpr std::uint32_t spheres_per_block = 256; ///< whatever the number of threads: it fixes the order of the sums
 
+/// Number of blocks that spheres are cut into.
+constexpr std::size_t blocks_of(std::size_t spheres) { return (spheres + spheres_per_block - 1) / spheres_per_block; }
+
 /// Positions in an ascending list of spheres that belong to a block.
 struct ListedRange {
     std::size_t begin, end;

@@ -89,6 +89,16 @@ LooseContact wall_contact(const LoosePair& pair, const LooseBody& sphere, double
     return damped(c, pair.damping, sphere.mass);
 }
 
+double stored_energy(const LooseContact& c, double overlap, double slip) {
+    if (overlap <= 0.0) {
+        return 0.0;
+    }
+    // 2/5 of F_n delta for Hertz's law, half of it for the linear one.
+    const double share = c.law == ContactLaw::hertz ? 0.4 * 2.0 / 3.0 : 0.5;
+    const Stiffness k = stiffness_at(c, overlap);
+    return share * k.k_n * overlap * overlap + 0.5 * k.k_t * slip * slip;
+}
+
 Stiffness stiffness_at(const LooseContact& c, double overlap) {
     if (c.law == ContactLaw::linear) {
         return {c.k_n, c.k_t, c.c_n, c.c_t};

@@ -61,6 +61,9 @@ inline contact::Response<double> advance(const LooseContact& c, double overlap, 
     return linear::advance<double>({c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.tension}, overlap, approach, dt, slip, state);
 }
 
+/// Energy of the springs at an overlap and an elastic tangential displacement in m, J.
+double stored_energy(const LooseContact& c, double overlap, double slip);
+
 /// Tangent stiffnesses (N/m) and dashpots (N s/m), which grow with the overlap, at an overlap in m.
 struct Stiffness {
     double k_n, k_t, c_n, c_t;

@@ -26,7 +26,12 @@ enum class Unit {
     velocity,
     time,
     energy_per_area,
-    any ///< a number whose dimension depends on another key; every unit text is taken
+    acceleration,
+    angle,
+    angular_velocity,
+    force,
+    rate, ///< events a second
+    any   ///< a number whose dimension depends on another key; every unit text is taken
 };
 
 /// Allowed range of a number.
@@ -74,6 +79,9 @@ class Visitor {
                          const char* meaning) = 0;
     /// A key that users may expect here and that is refused, with the reason.
     virtual void refused(const char* key, const char* reason) = 0;
+
+    /// True for visitors that want to know every parameter there may be, not only those that go with the values of others.
+    [[nodiscard]] bool wants_all() const { return reads_only_shape(); }
 
     /// A nested object.
     template <class T> void section(const char* key, T& value, const char* meaning) {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 namespace proveta::input {
 
@@ -24,9 +25,15 @@ const std::vector<Named>& table(Unit unit) {
     static const std::vector<Named> velocity{{"m/s", 1.0}, {"mm/s", 1e-3}, {"um/s", 1e-6}, {"mm/min", 1e-3 / 60.0}};
     static const std::vector<Named> time{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60.0}, {"h", 3600.0}};
     static const std::vector<Named> energy{{"J/m2", 1.0}, {"N/m", 1.0}, {"N/mm", 1e3}};
+    static const std::vector<Named> acceleration{{"m/s2", 1.0}};
+    static const std::vector<Named> angle{{"rad", 1.0}, {"deg", std::numbers::pi / 180.0}};
+    static const std::vector<Named> angular_velocity{{"rad/s", 1.0}, {"deg/s", std::numbers::pi / 180.0}, {"rpm", std::numbers::pi / 30.0}};
+    static const std::vector<Named> force{{"N", 1.0}, {"kN", 1e3}, {"MN", 1e6}};
+    static const std::vector<Named> rate{{"1/s", 1.0}, {"1/min", 1.0 / 60.0}, {"1/h", 1.0 / 3600.0}};
     static const std::vector<Named> any = [] {
         std::vector<Named> all;
-        for (const auto& of : {none, length, area, pressure, density, velocity, time, energy}) {
+        for (const auto& of :
+             {none, length, area, pressure, density, velocity, time, energy, acceleration, angle, angular_velocity, force, rate}) {
             all.insert(all.end(), of.begin(), of.end());
         }
         return all;
@@ -39,6 +46,11 @@ const std::vector<Named>& table(Unit unit) {
     case Unit::velocity: return velocity;
     case Unit::time: return time;
     case Unit::energy_per_area: return energy;
+    case Unit::acceleration: return acceleration;
+    case Unit::angle: return angle;
+    case Unit::angular_velocity: return angular_velocity;
+    case Unit::force: return force;
+    case Unit::rate: return rate;
     case Unit::any: return any;
     case Unit::none: break;
     }

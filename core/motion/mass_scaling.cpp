@@ -45,12 +45,7 @@ double best_step(double allowed, const std::vector<SphereDemand>& demand, const 
 void set_up_laws(const Spheres& s, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& contacts,
                  Walls& walls) {
     set_up_contacts(s, materials, weight, contacts);
-    for (auto& platen : walls.platens) {
-        set_up_platen(s, materials, platen);
-    }
-    for (auto& surface : walls.surfaces) {
-        set_up_surface(s, materials, surface);
-    }
+    set_up_walls(s, materials, walls);
 }
 
 } // namespace

@@ -15,6 +15,13 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
+// The matrix that takes w to v x w.
+Mat3 cross_matrix(const Vec3& v) {
+    Mat3 m;
+    m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return m;
+}
+
 // Stiffness and damping of one sphere with its share of every spring.
 struct Block {
     Mat6 stiffness = Mat6::Zero();
@@ -32,8 +39,7 @@ struct Block {
         }
         const Mat3 nn = n * n.transpose();
         const Mat3 tt = Mat3::Identity() - nn;
-        Mat3 cross;
-        cross << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
+        const Mat3 cross = cross_matrix(n);
         stiffness.topLeftCorner<3, 3>() += weight * (k_n * nn + k_t * tt);
         stiffness.bottomRightCorner<3, 3>() += weight * k_t * lever * lever * tt;
         stiffness.topRightCorner<3, 3>() -= weight * k_t * lever * cross;
@@ -49,7 +55,7 @@ struct Block {
     // The same at any point of a body, `arm` from its centre.
     void add_at(const Vec3& arm, const Vec3& n, const Stiffness& spring, double weight) {
         Eigen::Matrix<double, 6, 3> lift; // force at the point to force and torque at the centre
-        lift << Mat3::Identity(), softer * (Mat3() << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0).finished();
+        lift << Mat3::Identity(), softer * cross_matrix(arm);
         const Mat3 nn = n * n.transpose();
         const Mat3 tt = Mat3::Identity() - nn;
         stiffness += weight * lift * (spring.k_n * nn + spring.k_t * tt) * lift.transpose();
@@ -104,9 +110,13 @@ void add_pairs(const Spheres& s, const Pairs& pairs, const Spring& spring, const
         const auto other = static_cast<std::size_t>(second ? pairs.i[p] : pairs.j[p]);
         const Vec3 to = s.position.at(other) - s.position.at(sphere);
         const double d = to.norm();
+        const Stiffness acting = spring(p, d);
+        if (acting.k_n == 0.0) { // out of reach
+            continue;
+        }
         const double share = second ? 1.0 - pairs.share[p] : pairs.share[p];
         const double weight = 1.0 + g[other] / g[sphere];
-        block.add(to / d, spring(p, d), share * d, weight, base);
+        block.add(to / d, acting, share * d, weight, base);
         block.rolling += weight * 2.0 * rolling::share * rolling(p) / s.inertia[sphere];
     }
 }
@@ -236,8 +246,7 @@ void add_surface(const Surface& surface, std::size_t e, const Vec3& centre, doub
     for (const auto& contact : found) {
         const Vec3 to = surface.to_space(contact.point) - centre;
         const double distance = to.norm();
-        block.add(distance > 0.0 ? Vec3(to / distance) : Vec3(surface.attitude * surface.geometry.plane[contact.face].normal),
-                  stiffness_at(surface.law[e], radius - distance + skin), radius, 1.0, base);
+        block.add(surface.normal_at(contact, to, distance), stiffness_at(surface.law[e], radius - distance + skin), radius, 1.0, base);
         block.rolling += surface.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
     }
 }

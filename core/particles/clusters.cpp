@@ -2,12 +2,17 @@
 
 namespace proveta {
 
-void Clusters::add(Spheres& spheres, const ClusterShape& shape, double density, const Vec3& centre, const rotation::Quaternion& attitude,
-                   int material) {
+// The first cluster to come fixes where they begin.
+void Clusters::open(const Spheres& spheres) {
     if (empty()) {
         begin = spheres.size();
         first.assign(1, static_cast<std::uint32_t>(begin));
     }
+}
+
+void Clusters::add(Spheres& spheres, const ClusterShape& shape, double density, const Vec3& centre, const rotation::Quaternion& attitude,
+                   int material) {
+    open(spheres);
     const auto body = static_cast<std::int32_t>(size());
     mass.push_back(density * shape.volume);
     position.push_back(centre);
@@ -20,6 +25,22 @@ void Clusters::add(Spheres& spheres, const ClusterShape& shape, double density, 
         spheres.add(centre + attitude * shape.centre[k], shape.radius[k], density, 0, material);
         spheres.mass.back() = mass.back();
         spheres.inertia.back() = density * shape.inertia.minCoeff();
+    }
+    first.push_back(static_cast<std::uint32_t>(spheres.size()));
+}
+
+void Clusters::append(Spheres& spheres, const Clusters& from, const Spheres& its, std::size_t other) {
+    open(spheres);
+    const auto body = static_cast<std::int32_t>(size());
+    mass.push_back(from.mass[other]);
+    position.push_back(from.position[other]);
+    start.push_back(from.start[other]);
+    velocity.push_back(from.velocity[other]);
+    turning.push_back(from.turning[other]);
+    for (std::size_t s = from.first[other]; s < from.first[other + 1]; ++s) {
+        offset.push_back(from.offset[s - from.begin]);
+        body_.push_back(body);
+        spheres.append(its, s);
     }
     first.push_back(static_cast<std::uint32_t>(spheres.size()));
 }

@@ -19,7 +19,7 @@ struct ClusterShape {
 /// Bodies among the spheres of a model. Their spheres stand behind all others, one body's after another's. Velocities and momenta live half
 /// a step behind the positions, as those of spheres do.
 struct Clusters {
-    std::size_t begin = 0;              ///< first sphere that belongs to a cluster; without clusters the number of spheres
+    std::size_t begin = 0;              ///< first sphere that belongs to a cluster, if there is any
     std::vector<std::uint32_t> first{}; ///< first sphere of each; one more than there are clusters, or none
     std::vector<Vec3> offset{};         ///< centre of sphere `begin + k` in its body's principal frame, m
     std::vector<double> mass{};         ///< kg
@@ -30,6 +30,8 @@ struct Clusters {
 
     [[nodiscard]] std::size_t size() const { return mass.size(); }
     [[nodiscard]] bool empty() const { return mass.empty(); }
+    /// Number of spheres that belong to no cluster: the first ones.
+    [[nodiscard]] std::size_t alone(const Spheres& spheres) const { return empty() ? spheres.size() : begin; }
     /// Which body a sphere belongs to; -1: none.
     [[nodiscard]] std::int32_t of(std::size_t sphere) const { return sphere < begin || empty() ? -1 : body_[sphere - begin]; }
 
@@ -37,6 +39,9 @@ struct Clusters {
     /// The spheres carry the body's mass and its smallest principal moment, which their contacts' dashpots need.
     void add(Spheres& spheres, const ClusterShape& shape, double density, const Vec3& centre, const rotation::Quaternion& attitude,
              int material = 0);
+
+    /// Appends a cluster of another set as it is, with its spheres.
+    void append(Spheres& spheres, const Clusters& from, const Spheres& its, std::size_t body);
 
     /// Puts a body's spheres where the body is, and gives them the velocities that took them there in dt seconds; dt = 0: those of the
     /// body.
@@ -46,6 +51,7 @@ struct Clusters {
     template <class Visit> void visit_state(Visit&& visit);
 
   private:
+    void open(const Spheres& spheres);
     std::vector<std::int32_t> body_; // of each sphere from `begin` on
 };
 

@@ -1,6 +1,7 @@
 #include "core/particles/spheres.hpp"
 
 #include <numbers>
+#include <numeric>
 
 namespace proveta {
 
@@ -34,6 +35,23 @@ void Spheres::add(const Vec3& centre, double r, double density, int cohesive_gro
     group.push_back(cohesive_group);
     material.push_back(material_index);
     id.push_back(static_cast<std::int64_t>(id.size()));
+}
+
+void Spheres::append(const Spheres& from, std::size_t k) {
+    position.push_back(from.position.at(k));
+    velocity.push_back(from.velocity.at(k));
+    spin.push_back(from.spin.at(k));
+    start.push_back(from.start.at(k));
+    radius.push_back(from.radius[k]);
+    mass.push_back(from.mass[k]);
+    inertia.push_back(from.inertia[k]);
+    group.push_back(from.group[k]);
+    material.push_back(from.material[k]);
+    id.push_back(from.id[k]);
+}
+
+double mean_radius(const Spheres& s) {
+    return s.size() == 0 ? 0.0 : std::accumulate(s.radius.begin(), s.radius.end(), 0.0) / static_cast<double>(s.size());
 }
 
 } // namespace proveta

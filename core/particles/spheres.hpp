@@ -24,6 +24,9 @@ struct Spheres {
     std::vector<std::int64_t> id; ///< number in the file or recipe that the sphere came from
     bool planar = false;          ///< discs of unit thickness in the plane y = 0, about axis y; set before any is added
 
+    bool packed =
+        true; ///< as they start they press on nothing: overlaps of a packing store no energy. False: overlaps press from the start
+
     [[nodiscard]] std::size_t size() const { return radius.size(); }
 
     [[nodiscard]] SphereView view() const;
@@ -35,6 +38,11 @@ struct Spheres {
 
     /// Appends a sphere at rest. centre and radius in m, density in kg/m3.
     void add(const Vec3& centre, double r, double density, int cohesive_group = 0, int material_index = 0);
+    /// Appends a sphere of another set as it is.
+    void append(const Spheres& from, std::size_t k);
 };
+
+/// m; 0 without any.
+double mean_radius(const Spheres& spheres);
 
 } // namespace proveta

@@ -23,6 +23,7 @@ void add_study(CLI::App& app, const std::string& typed, Command& chosen);
 void add_calibrate(CLI::App& app, const std::string& typed, Command& chosen);
 void add_sweep(CLI::App& app, const std::string& typed, Command& chosen);
 void add_trial(CLI::App& app, Command& chosen);
+void add_scene(CLI::App& app, const std::string& typed, Command& chosen);
 void add_verify(CLI::App& app, Command& chosen);
 void add_bench(CLI::App& app, Command& chosen);
 

@@ -10,6 +10,7 @@
 #include "lab/cli/commands.hpp"
 #include "lab/deck.hpp"
 #include "lab/protocols/registry.hpp"
+#include "lab/scene/scene.hpp"
 #include "lab/sweep/sweep.hpp"
 
 namespace proveta {
@@ -24,6 +25,17 @@ std::vector<input::ParameterInfo> parameters_of(const std::string& test) {
     input::Describer describer;
     declare(static_cast<input::Visitor&>(describer), deck);
     return describer.parameters();
+}
+
+// All keys of a scene but those of materials, which are a deck's.
+std::vector<input::ParameterInfo> parameters_of_scene() {
+    Scene scene;
+    scene.materials.resize(1);
+    input::Describer describer;
+    declare(describer, scene);
+    auto parameters = describer.parameters();
+    std::erase_if(parameters, [](const auto& p) { return p.path.find(".material.") != std::string::npos; });
+    return parameters;
 }
 
 void keep_prefix(std::vector<input::ParameterInfo>& parameters, const std::string& prefix) {
@@ -59,7 +71,10 @@ std::string reference() {
     out += "## All keys of a deck\n\n";
     auto parameters = parameters_of(test_names().front());
     std::erase_if(parameters, [](const auto& p) { return p.path.starts_with("loading."); });
-    out += input::as_markdown(parameters) + "\n## Material cards\n\n| card | about | source | status |\n|---|---|---|---|\n";
+    out += input::as_markdown(parameters) +
+           "\n## All keys of a scene\n\nKeys of a surface go with its `shape`, those of a motion with its `kind`, "
+           "those of particles with their `form` and `place`. A material has the keys of a deck's.\n\n";
+    out += input::as_markdown(parameters_of_scene()) + "\n## Material cards\n\n| card | about | source | status |\n|---|---|---|---|\n";
     for (const auto& name : card_names()) {
         const Card card = load_card(name, "", "", "");
         out += fmt::format("| `{}` | {} | {} | {} |\n", name, card.about, card.source, card.status);
@@ -83,6 +98,7 @@ std::string overview() {
             out += fmt::format("    {:<26} {}\n", p.path, p.meaning);
         }
     }
+    out += "\nscene                          particles that fall, pour and flow among surfaces: `proveta describe scene`\n";
     return out + "\nproveta describe NAME tells more of any of them, or of a key such as loading.rate\n";
 }
 
@@ -101,7 +117,12 @@ int describe(const std::string& name) {
         fmt::print("{}", about_card(name));
         return 0;
     }
+    if (name == "scene") {
+        fmt::print("{}", input::as_text(parameters_of_scene()));
+        return 0;
+    }
     std::vector<std::string> known = tests;
+    known.emplace_back("scene");
     known.insert(known.end(), cards.begin(), cards.end());
     for (const auto& test : tests) {
         auto parameters = parameters_of(test);
@@ -149,13 +170,16 @@ void add_describe(CLI::App& app, Command& chosen) {
 
 void add_schema(CLI::App& app, Command& chosen) {
     auto kind = std::make_shared<std::string>("deck");
-    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks, material cards, sweeps or calibrations");
-    command->add_option("kind", *kind, "deck, card, sweep or calibration")->check(CLI::IsMember({"deck", "card", "sweep", "calibration"}));
+    auto* command = app.add_subcommand("schema", "JSON schema (draft 2020-12) of decks, scenes, material cards, sweeps or calibrations");
+    command->add_option("kind", *kind, "deck, scene, card, sweep or calibration")
+        ->check(CLI::IsMember({"deck", "scene", "card", "sweep", "calibration"}));
     command->callback([kind, &chosen] {
         chosen = [kind] {
             input::Json schema;
             if (*kind == "deck") {
                 schema = deck_schema();
+            } else if (*kind == "scene") {
+                schema = scene_schema();
             } else if (*kind == "calibration") {
                 schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Proveta calibration"}};
                 schema.update(calibration_schema());

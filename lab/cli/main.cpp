@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
     proveta::add_calibrate(app, typed, chosen);
     proveta::add_sweep(app, typed, chosen);
     proveta::add_trial(app, chosen);
+    proveta::add_scene(app, typed, chosen);
     proveta::add_verify(app, chosen);
     proveta::add_bench(app, chosen);
     try {

@@ -71,13 +71,13 @@ struct Plot {
     std::vector<std::string> rows = {};           ///< names of rows at y = -1, -2, ... in place of a y axis with numbers
 };
 
-/// A line (bond, crack) or dot (sphere) of a specimen picture, in the plane of the cut, m.
+/// A line (crack, surface) or dot (sphere) of a specimen picture, in the plane of the cut, m.
 struct PictureDot {
     double x, z, radius, value; ///< value 0 to 1 colours it
 };
 struct PictureLine {
     double x0, z0, x1, z1;
-    int mode;      ///< 1: tension, 2: shear
+    int mode;      ///< 0: a surface, 1: a bond failed in tension, 2: in shear
     double weight; ///< how wide the crack is, 0 to 1
 };
 

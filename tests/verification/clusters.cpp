@@ -49,7 +49,7 @@ struct Motion {
 };
 Motion momentum(const Model& m) {
     Motion out;
-    for (std::size_t k = 0; k < (m.clusters.empty() ? m.spheres.size() : m.clusters.begin); ++k) {
+    for (std::size_t k = 0; k < m.clusters.alone(m.spheres); ++k) {
         const Vec3 p = m.spheres.mass[k] * m.spheres.velocity.at(k);
         out.linear += p;
         out.angular += m.spheres.position.at(k).cross(p) + m.spheres.inertia[k] * m.spheres.spin.at(k);

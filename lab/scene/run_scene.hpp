@@ -1,0 +1,15 @@
+// Running a scene to a folder of results.
+#pragma once
+
+#include "lab/run.hpp"
+#include "lab/scene/scene.hpp"
+
+namespace proveta {
+
+/// Plays the scene, writes its folder, prints the results on stdout. Throws InputError before anything is written when the scene is wrong.
+RunStatus run_scene(const Scene& scene, const RunOptions& options);
+
+/// Looks at what only the making tells: files, forms, room. Throws InputError.
+void try_scene(const Scene& scene);
+
+} // namespace proveta

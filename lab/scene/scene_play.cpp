@@ -1,0 +1,120 @@
+#include "lab/scene/scene_play.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lab/scene/scene_samples.hpp"
+#include "lab/scene/scene_surfaces.hpp"
+
+namespace proveta {
+
+namespace {
+
+std::vector<Material> materials_of(const Scene& scene) {
+    std::vector<Material> out;
+    for (const auto& m : scene.materials) {
+        out.push_back(to_material(m.material.values));
+    }
+    return out;
+}
+
+Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Material>& materials) {
+    const SceneNumerics& in = scene.numerics;
+    Numerics n;
+    n.safety = in.safety;
+    n.time_step = in.time_step.word.empty() ? in.time_step.number : in.safety * stable_step(feed.kinds(), materials, in.largest_overlap);
+    n.skin = in.skin.word.empty() ? in.skin.number : 0.2;
+    n.damping = {in.damping, in.damping};
+    n.refuse_unstable = in.above_bound == "refuse";
+    n.gravity = {scene.gravity[0], scene.gravity[1], scene.gravity[2]};
+    n.overlap_growth = in.largest_overlap * mean_radius(feed.kinds());
+    return n;
+}
+
+} // namespace
+
+ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene) {
+    const auto materials = materials_of(scene);
+    auto surfaces = make_surfaces(scene, materials, notes_);
+    Population first = feed_.first(surfaces);
+    for (const auto& s : scene.surfaces) {
+        motions_.push_back(make_motion(s.motion, scene.folder));
+    }
+    Numerics numerics = numerics_of(scene, feed_, materials);
+    const auto set_up = [&] {
+        std::vector<double> weight;
+        Bonds none = make_bonds(first.spheres, materials, {}, std::vector<std::uint8_t>(first.spheres.size(), 0), weight);
+        model_ = std::make_unique<Model>(first.spheres, materials, std::move(none), std::move(weight), Walls({}, surfaces), numerics,
+                                         first.clusters);
+    };
+    try {
+        set_up();
+    } catch (const UnstableStep& step) {
+        if (scene.numerics.time_step.word.empty()) {
+            throw;
+        }
+        numerics.time_step = scene.numerics.safety * step.stable; // the first particles touch more closely than reckoned
+        set_up();
+    }
+    model_->set_skin(numerics.skin * mean_radius(feed_.kinds())); // the first particles may be none, or the smallest
+}
+
+void ScenePlay::step(bool measure) {
+    feed_.look_after(*model_);
+    choose_skin();
+    for (std::size_t k = 0; k < motions_.size(); ++k) {
+        Surface& surface = model_->walls.surfaces[k];
+        surface.drive = motions_[k]->at(model_->time(), model_->dt(), surface, model_->spheres);
+    }
+    model_->step({}, measure);
+}
+
+// A wide skin lists many pairs that do not touch, a narrow one has them listed often. With s the skin over the mean radius, v the way a
+// step of what moves fastest over that radius, a step costs about (1 + s/2)^3 + c v/s, c being the cost of listing over that of a step at
+// s = 0. What was searched of late tells v; nothing here depends on the machine, so that runs repeat themselves.
+void ScenePlay::choose_skin() {
+    constexpr std::int64_t every = 2048;
+    constexpr double listing = 12.0;
+    if (scene_.numerics.skin.word.empty() || model_->steps() < chosen_at_ + every) {
+        return;
+    }
+    const double radius = mean_radius(feed_.kinds());
+    const double way = model_->skin() / radius * static_cast<double>(model_->searches() - searches_) / static_cast<double>(every);
+    chosen_at_ = model_->steps();
+    searches_ = model_->searches();
+    double best = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double s : {0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0}) {
+        const double cost = std::pow(1.0 + 0.5 * s, 3) + listing * way / s;
+        if (cost < least) {
+            least = cost;
+            best = s;
+        }
+    }
+    if (std::fabs(best * radius - model_->skin()) > 1e-9 * radius) {
+        model_->set_skin(best * radius);
+        ++searches_; // the one that this asks for
+    }
+}
+
+std::string ScenePlay::over() const {
+    if (model_->time() >= scene_.stop.time) {
+        return "its time is over";
+    }
+    if (scene_.stop.rest <= 0.0 || !feed_.finished()) {
+        return "";
+    }
+    const bool moving = std::any_of(model_->walls.surfaces.begin(), model_->walls.surfaces.end(), [&](const Surface& s) {
+        return s.drive.velocity.norm() > scene_.stop.rest || s.drive.spin.norm() * s.reach() > scene_.stop.rest;
+    });
+    const SceneState state = state_of(*model_);
+    // Before anything has fallen everything rests.
+    const bool began = model_->time() > 0.02 * scene_.stop.time;
+    return !moving && began && state.rms_speed < scene_.stop.rest
+               ? fmt::format("at rest: root mean square speed below {:.3g} m/s", scene_.stop.rest)
+               : "";
+}
+
+} // namespace proveta
