@@ -351,7 +351,7 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
 }
 
 void Model::check() const {
-    const double sane = 0.1 * mean_radius_ / dt_; // a tenth of a radius a step
+    const double sane = numerics_.fastest * mean_radius_ / dt_;
     if (!std::isfinite(ledger_.spent()) || !std::isfinite(fastest_) || fastest_ > sane) {
         throw NumericalFailure(text("at step ", steps_, " (time ", time_, " s) the calculation diverged: fastest sphere ", fastest_,
                                     " m/s, energy ", ledger_.spent(), " J"));

@@ -34,6 +34,7 @@ struct Numerics {
     BackgroundDamping damping;
     Scheme scheme = Scheme::velocity_verlet;
     Vec3 gravity = Vec3::Zero();          ///< m/s2
+    double fastest = 0.1;                 ///< mean radii that a sphere may go in a step; who is faster shows that the calculation diverged
     std::optional<double> overlap_growth; ///< by which overlaps are taken to grow until the next search, m; empty: the skin, their most
     bool refuse_unstable = true;          ///< false only to study how a scheme diverges: a step above the stable one is kept
 };

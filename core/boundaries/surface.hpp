@@ -71,6 +71,8 @@ struct Surface {
     /// Moves the surface as it is driven for dt seconds.
     void move(double dt);
 
+    /// How far a sphere of a touch reaches beyond its contact point, m.
+    [[nodiscard]] double overlap_of(const SurfaceTouch& touch, const Spheres& spheres) const;
     /// Stiffness that the contacts of the last step have along a unit vector, N/m.
     [[nodiscard]] double stiffness_along(const Vec3& direction, const Spheres& spheres) const;
 
@@ -90,7 +92,6 @@ struct Surface {
 
   private:
     [[nodiscard]] const LooseContact& law_of(const SurfaceTouch& touch) const;
-    [[nodiscard]] double overlap_of(const SurfaceTouch& touch, const Spheres& spheres) const;
 
     // Everything that later steps depend on, in plain numbers.
     struct Flat {

@@ -28,6 +28,7 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
     n.skin = in.skin.word.empty() ? in.skin.number : 0.2;
     n.damping = {in.damping, in.damping};
     n.refuse_unstable = in.above_bound == "refuse";
+    n.fastest = 0.5; // who is flung out of a pinch is no failure; who goes a radius a step might pass through another
     n.gravity = {scene.gravity[0], scene.gravity[1], scene.gravity[2]};
     n.overlap_growth = in.largest_overlap * mean_radius(feed.kinds());
     return n;

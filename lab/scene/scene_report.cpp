@@ -24,7 +24,7 @@ std::vector<report::Scalar> results_of(const ScenePlay& play, const SceneSeen& s
     };
     const auto overlaps = seen.curve.values("largest_overlap");
     out.push_back({"largest_overlap", "Largest overlap", *std::max_element(overlaps.begin(), overlaps.end()), "",
-                   "of two spheres over the smaller radius, at any sample"});
+                   "of two spheres, or of a sphere and a surface, over the smaller radius, at any sample"});
     for (const auto& box : seen.measures) {
         out.push_back({"solid_fraction_" + box.name, "Solid fraction in " + box.name, box.solid_fraction, "",
                        "volume of the particles inside the box over the box's, overlaps once"});

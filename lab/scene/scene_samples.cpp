@@ -78,6 +78,14 @@ SceneState state_of(const Model& m) {
             s.overlap = std::max(s.overlap, overlap / std::min(m.spheres.radius[i], m.spheres.radius[j]));
         }
     }
+    for (const auto& surface : m.walls.surfaces) {
+        for (const auto& block : surface.touches) {
+            for (const auto& touch : block) {
+                s.overlap =
+                    std::max(s.overlap, surface.overlap_of(touch, m.spheres) / m.spheres.radius[static_cast<std::size_t>(touch.sphere)]);
+            }
+        }
+    }
     return s;
 }
 
@@ -92,7 +100,7 @@ report::Table empty_scene_curve(const Model& m) {
                  {"rms_speed", "m/s", "root mean square of the particles' speeds"},
                  {"fastest", "m/s", "fastest particle"},
                  {"touching", "", "mean number of contacts a particle"},
-                 {"largest_overlap", "", "of two spheres, over the smaller radius"}};
+                 {"largest_overlap", "", "of two spheres, or of a sphere and a surface, over the smaller radius"}};
     for (const auto& s : m.walls.surfaces) {
         for (const auto& [what, unit, meaning] :
              {std::tuple{"force", "N", "force on it"}, std::tuple{"torque", "Nm", "torque on it"}, std::tuple{"at", "m", "where it is"}}) {

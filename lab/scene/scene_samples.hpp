@@ -18,7 +18,7 @@ struct SceneState {
     double rms_speed = 0.0; ///< of their centres, m/s
     double fastest = 0.0;   ///< m/s
     double touching = 0.0;  ///< mean number of others and surfaces that one touches, counted by spheres
-    double overlap = 0.0;   ///< largest, over the smaller radius
+    double overlap = 0.0;   ///< largest of two spheres or a sphere and a surface, over the smaller radius
 };
 SceneState state_of(const Model& model);
 

@@ -261,11 +261,11 @@ class SelfDescription(Case):
         if not node_modules:
             self.skipTest("PROVETA_NODE_MODULES is not set (bootstrap.sh installs ajv and sets it)")
         (self.folder / "schema.json").write_text(self.run_program("schema").stdout)
-        for kind in ("card", "sweep", "calibration"):
+        for kind in ("card", "scene", "sweep", "calibration"):
             (self.folder / f"{kind}.json").write_text(self.run_program("schema", kind).stdout)
         examples = pathlib.Path(__file__).parents[2]
         files = {f: json.loads(f.read_text()) for f in sorted((examples / "examples").glob("*.json"))}
-        kinds = {f: "calibration" if "targets" in j else "sweep" if "tests" in j else "deck" for f, j in files.items()}
+        kinds = {f: "scene" if "scene" in j else "calibration" if "targets" in j else "sweep" if "tests" in j else "deck" for f, j in files.items()}
         decks = [(f, True) for f, kind in kinds.items() if kind == "deck"]
         decks += [(self.deck(**c, name=f"d{k}.json"), good) for k, (c, good) in enumerate([
             ({}, True), ({"loading": {"rate": "0.1 m/s", "platen_friction": "glued"}}, True), ({"loading": {"rate": 0}}, False),
@@ -277,6 +277,10 @@ class SelfDescription(Case):
             self.assertEqual(self.run_program("check", deck).returncode == 0, good, deck.read_text())
         jobs = [["schema.json", str(d), good] for d, good in decks]
         jobs += [["card.json", str(c), True] for c in sorted((examples / "materials" / "cards").glob("*.json"))]
+        for file in (f for f, k in kinds.items() if k == "scene"):
+            bad = self.deck({**files[file], "surfaces": [{"name": "floor", "shape": "plain"}]}, "bad_scene.json")
+            self.assertEqual(self.run_program("scene", bad, "--check").returncode, 2)
+            jobs += [["scene.json", str(file), True], ["scene.json", str(bad), False]]
         for kind, command in (("sweep", "sweep"), ("calibration", "calibrate")):
             for file in (f for f, k in kinds.items() if k == kind):
                 bad = self.deck({**files[file], "parameters": [{"path": "material.tau_f", "low": "1 parsec", "high": "20 MPa"}]}, f"bad_{kind}.json")
