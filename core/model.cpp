@@ -97,10 +97,8 @@ void Model::search() {
         platens_way = std::max(platens_way, std::fabs(walls.platens[p].position - platens_at_[p]));
     }
     const bool neighbours = search_anew_ || 2.0 * platens_way > skin_ || travel_.beyond(0.5 * skin_, spheres.position);
-    const bool surfaces =
-        !walls.surfaces.empty() && (search_anew_ || surface_way_ > skin_ || surface_travel_.beyond(skin_ - surface_way_, spheres.position));
     if (neighbours) {
-        contacts = search_contacts(spheres, bonds, clusters, materials, weight_, skin_, contacts);
+        contacts = search_contacts(spheres, bonds, clusters, materials, weight_, skin_, contacts, team_.get());
         platens_at_.resize(walls.platens.size());
         for (std::size_t p = 0; p < walls.platens.size(); ++p) {
             search_platen(spheres, materials, skin_, walls.platens[p]);
@@ -110,10 +108,16 @@ void Model::search() {
         travel_.restart(spheres.position);
         ++searches_;
     }
-    if (surfaces) {
-        team_->run(walls.surfaces.size(), [&](std::size_t k) { search_surface(spheres, materials, skin_, walls.surfaces[k]); });
-        surface_travel_.restart(spheres.position);
-        surface_way_ = 0.0;
+    bool surfaces = false;
+    tracks_.resize(walls.surfaces.size());
+    for (std::size_t p = 0; p < tracks_.size(); ++p) {
+        SurfaceTrack& track = tracks_[p];
+        if (search_anew_ || track.way > skin_ || track.spheres.beyond(skin_ - track.way, spheres.position)) {
+            search_surface(spheres, materials, skin_, walls.surfaces[p], team_.get());
+            track.spheres.restart(spheres.position);
+            track.way = 0.0;
+            surfaces = true;
+        }
     }
     search_anew_ = false;
     if (neighbours || surfaces) {
@@ -153,13 +157,13 @@ void Model::keep_stable(bool first) {
 void Model::arrange() { loads.arrange({{bonds.i, bonds.j, bonds.row_j}, {contacts.i, contacts.j, contacts.row_j}}); }
 
 // All forces on a block's spheres among themselves, on later spheres and by boundaries. Touches nothing that another block touches.
-void Model::block_forces(std::size_t k, const BondView& view, double elapsed, bool measure) {
+void Model::block_forces(std::size_t k, const BondView& view, const ContactView& touching, double elapsed, bool measure) {
     const SphereBlock& block = loads.blocks()[k];
     BlockSums& out = block_sums_[k];
     out.failures.clear();
     loads.clear_kept(block);
     out.bonds = bond_forces(spheres.view(), bonds, view, k, loads.rows(), elapsed, measure, out.failures);
-    out.contacts = contact_forces(spheres, contacts, k, elapsed, dt_, loads);
+    out.contacts = contact_forces(spheres.view(), contacts, touching, k, elapsed, dt_, loads);
     out.walls.clear();
     for (auto& platen : walls.platens) {
         out.walls.push_back(platen_forces(spheres, platen, block, elapsed, dt_, loads));
@@ -203,7 +207,8 @@ void Model::forces(double elapsed, bool measure) {
         average();
     }
     const BondView view = bonds.view();
-    team_->run(loads.blocks().size(), [&](std::size_t k) { block_forces(k, view, elapsed, keep); });
+    const ContactView touching = contacts.view();
+    team_->run(loads.blocks().size(), [&](std::size_t k) { block_forces(k, view, touching, elapsed, keep); });
 
     double stored = 0.0;
     std::vector<WallSums> at_walls(walls.platens.size() + walls.surfaces.size());
@@ -326,17 +331,18 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
     }
     double fastest = std::sqrt(sums.fastest);
     travel_.went(fastest * dt_);
-    surface_travel_.went(fastest * dt_);
+    for (auto& track : tracks_) {
+        track.spheres.went(fastest * dt_);
+    }
     for (std::size_t p = 0; p < walls.platens.size(); ++p) {
         walls.platens[p].move(speeds[p], dt_);
         fastest = std::max(fastest, std::fabs(speeds[p]));
     }
-    double surface_speed = 0.0;
-    for (auto& surface : walls.surfaces) {
+    for (std::size_t p = 0; p < walls.surfaces.size(); ++p) {
+        Surface& surface = walls.surfaces[p];
         surface.move(dt_);
-        surface_speed = std::max(surface_speed, surface.motion.velocity.norm() + surface.motion.spin.norm() * surface.reach());
+        tracks_[p].way += (surface.motion.velocity.norm() + surface.motion.spin.norm() * surface.reach()) * dt_;
     }
-    surface_way_ += surface_speed * dt_;
     fastest_ = fastest;
     ledger_.background += sums.damping_work;
     if (measure) {

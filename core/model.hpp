@@ -134,7 +134,7 @@ class Model {
     void arrange();
     void average();
     void forces(double elapsed, bool measure);
-    void block_forces(std::size_t block, const BondView& view, double elapsed, bool measure);
+    void block_forces(std::size_t block, const BondView& view, const ContactView& touching, double elapsed, bool measure);
     void fail_by_averaged_stress();
     void motion(const std::vector<double>& speeds, bool measure);
     MotionSums move(bool measure);
@@ -149,10 +149,14 @@ class Model {
     double mean_radius_ = 0.0;
     double skin_ = 0.0;
     bool search_anew_ = true;
-    double body_gone_ = 0.0;   // work of gravity on spheres that are gone, J
-    Travel travel_;            // since neighbours and platens were listed
-    Travel surface_travel_;    // since surfaces were
-    double surface_way_ = 0.0; // of the surfaces since then, m
+    double body_gone_ = 0.0; // work of gravity on spheres that are gone, J
+    Travel travel_;          // since neighbours and platens were listed
+    // Since a surface was listed: how far spheres have gone, and the surface itself, m.
+    struct SurfaceTrack {
+        Travel spheres;
+        double way = 0.0;
+    };
+    std::vector<SurfaceTrack> tracks_;
     std::vector<double> platens_at_;
     double dt_ = 0.0;
     double first_dt_ = 0.0;
@@ -223,12 +227,11 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit(name + "reaction_z", reactions_[p].z());
     }
     for (std::size_t p = 0; p < walls.surfaces.size(); ++p) {
-        walls.surfaces[p].visit_state("surface_" + std::to_string(p) + "_", visit);
-    }
-    if (!walls.surfaces.empty()) {
-        field("surfaces_searched_at", surface_travel_.from);
-        visit("surfaces_travel", surface_travel_.bound);
-        visit("surfaces_way", surface_way_);
+        const std::string name = "surface_" + std::to_string(p) + "_";
+        walls.surfaces[p].visit_state(name, visit);
+        field(name + "searched_at", tracks_[p].spheres.from);
+        visit(name + "travel", tracks_[p].spheres.bound);
+        visit(name + "way", tracks_[p].way);
     }
     for (std::size_t p = 0; p < pressures.size(); ++p) {
         visit("pressure_" + std::to_string(p), pressures[p].value);

@@ -94,7 +94,7 @@ std::string to_html(const Record& r) {
         out += "</div>\n";
     }
     if (!r.pictures.empty()) {
-        out += "<h2>The specimen</h2>\n<div class=\"row\">\n";
+        out += "<h2>Pictures</h2>\n<div class=\"row\">\n";
         for (const auto& p : r.pictures) {
             out +=
                 fmt::format("<figure>{}<figcaption><b>{}.</b> {}</figcaption></figure>\n", to_svg(p), escape(p.title), escape(p.caption));

@@ -5,15 +5,13 @@
 #include <string>
 
 #include "core/bonds/bond_law.hpp"
+#include "core/contacts/loose_contact.hpp"
 
 namespace proveta {
 
 /// Rule that gives the effective area of a bond (model: effective areas; thesis 5.1.3, 5.3).
 /// laguerre areas are not computed here: `make_bonds` is given them.
 enum class AreaRule { minimum_radius, truncated_cone, virtual_polyhedron, laguerre };
-
-/// Law of loose contacts (thesis 2.5.1, 2.5.2).
-enum class ContactLaw : std::uint8_t { linear, hertz };
 
 /// How a restitution becomes a dashpot: by (2.21), or so that the law as it runs, which never pulls, gives it back.
 enum class RestitutionRule : std::uint8_t { corrected, nominal };

@@ -118,26 +118,59 @@ void Surface::restore(const Flat& flat) {
     }
 }
 
-void search_surface(const Spheres& spheres, const std::vector<Material>& materials, double skin, Surface& surface) {
-    surface.sphere.clear();
-    surface.near_first.assign(1, 0);
-    surface.near_face.clear();
+namespace {
+
+// What a block of spheres finds.
+struct Listed {
+    std::vector<std::int32_t> sphere;
+    std::vector<std::uint32_t> faces; // how many of each
+    std::vector<std::uint32_t> face;
+};
+
+void list_block(const Spheres& spheres, double skin, const Surface& surface, std::size_t begin, std::size_t end, Listed& out) {
     const auto box = surface.tree.box(); // only spheres in the intersection of both domains look for faces
-    for (std::size_t s = 0; s < spheres.size() && !box.isEmpty(); ++s) {
+    for (std::size_t s = begin; s < end && !box.isEmpty(); ++s) {
         const Vec3 own = surface.to_own(spheres.position.at(s));
         const double reach = spheres.radius[s] + skin;
         if (box.squaredExteriorDistance(own) > reach * reach) {
             continue;
         }
-        const std::size_t before = surface.near_face.size();
-        surface.tree.near(own, reach, surface.near_face);
-        const auto kept = std::remove_if(surface.near_face.begin() + static_cast<std::ptrdiff_t>(before), surface.near_face.end(),
+        const std::size_t before = out.face.size();
+        surface.tree.near(own, reach, out.face);
+        const auto kept = std::remove_if(out.face.begin() + static_cast<std::ptrdiff_t>(before), out.face.end(),
                                          [&](std::uint32_t face) { return !cuts(surface.geometry, face, own, reach); });
-        surface.near_face.erase(kept, surface.near_face.end());
-        if (surface.near_face.size() > before) {
-            surface.sphere.push_back(static_cast<std::int32_t>(s));
-            surface.near_first.push_back(static_cast<std::uint32_t>(surface.near_face.size()));
+        out.face.erase(kept, out.face.end());
+        if (out.face.size() > before) {
+            out.sphere.push_back(static_cast<std::int32_t>(s));
+            out.faces.push_back(static_cast<std::uint32_t>(out.face.size() - before));
         }
+    }
+}
+
+} // namespace
+
+void search_surface(const Spheres& spheres, const std::vector<Material>& materials, double skin, Surface& surface, Team* team) {
+    std::vector<Listed> found(blocks_of(spheres.size()));
+    const auto look = [&](std::size_t part) {
+        const std::size_t begin = part * spheres_per_block;
+        list_block(spheres, skin, surface, begin, std::min(spheres.size(), begin + spheres_per_block), found[part]);
+    };
+    if (team != nullptr) {
+        team->run(found.size(), look);
+    } else {
+        for (std::size_t part = 0; part < found.size(); ++part) {
+            look(part);
+        }
+    }
+    surface.sphere.clear();
+    surface.near_first.assign(1, 0);
+    surface.near_face.clear();
+    for (const auto& block : found) {
+        surface.sphere.insert(surface.sphere.end(), block.sphere.begin(), block.sphere.end());
+        for (const auto n : block.faces) {
+            surface.near_first.push_back(surface.near_first.back() + n);
+        }
+        surface.near_face.insert(surface.near_face.end(), block.face.begin(), block.face.end());
     }
     set_up_surface(spheres, materials, surface);
 }

@@ -10,6 +10,7 @@
 #include "core/boundaries/wall_contact.hpp"
 #include "core/contacts/loads.hpp"
 #include "core/motion/rotation.hpp"
+#include "core/parallel/team.hpp"
 
 namespace proveta {
 
@@ -106,8 +107,8 @@ struct Surface {
     double reach_ = 0.0;
 };
 
-/// Lists anew the spheres within `skin` metres of touching, and the faces near each. Contacts stay as they are.
-void search_surface(const Spheres& spheres, const std::vector<Material>& materials, double skin, Surface& surface);
+/// Lists anew the spheres within `skin` metres of touching, and the faces near each. Contacts stay as they are. team: who shares the work.
+void search_surface(const Spheres& spheres, const std::vector<Material>& materials, double skin, Surface& surface, Team* team = nullptr);
 
 /// Fills in the constants of the listed spheres' contacts.
 void set_up_surface(const Spheres& spheres, const std::vector<Material>& materials, Surface& surface);

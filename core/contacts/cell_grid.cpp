@@ -51,33 +51,49 @@ CellGrid::CellGrid(const VectorField& positions, double width) {
     }
 }
 
-std::vector<Pair> find_pairs(const VectorField& positions, const std::vector<double>& radii, double factor, double gap) {
+std::vector<Pair> find_pairs(const VectorField& positions, const std::vector<double>& radii, double factor, double gap, Team* team) {
     const std::size_t n = radii.size();
     if (n < 2) {
         return {};
     }
     const double largest = *std::max_element(radii.begin(), radii.end());
     const CellGrid grid(positions, 2.0 * factor * largest + gap);
+    // In the order of the cells, so that what is compared lies side by side in memory.
+    const auto& items = grid.items();
+    VectorField at(n);
+    std::vector<double> radius(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        at.set(k, positions.at(items[k]));
+        radius[k] = radii[items[k]];
+    }
     constexpr std::size_t block = 256;
     std::vector<std::vector<Pair>> found((n + block - 1) / block);
-#pragma omp parallel for schedule(dynamic) if (found.size() > 2)
-    for (std::size_t part = 0; part < found.size(); ++part) {
+    const auto look = [&](std::size_t part) {
         auto& mine = found[part];
         for (std::size_t i = part * block; i < std::min(n, (part + 1) * block); ++i) {
-            grid.near(i, [&](std::uint32_t j) {
-                if (j <= i) {
-                    return;
-                }
-                const double dx = positions.x[j] - positions.x[i];
-                const double dy = positions.y[j] - positions.y[i];
-                const double dz = positions.z[j] - positions.z[i];
-                const double reach = factor * (radii[i] + radii[j]) + gap;
-                if (dx * dx + dy * dy + dz * dz <= reach * reach) {
-                    mine.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+            const auto before = static_cast<std::ptrdiff_t>(mine.size());
+            const Vec3 here = positions.at(i);
+            grid.runs(i, [&](std::uint32_t begin, std::uint32_t end) {
+                for (auto k = begin; k < end; ++k) {
+                    const double dx = at.x[k] - here.x();
+                    const double dy = at.y[k] - here.y();
+                    const double dz = at.z[k] - here.z();
+                    const double reach = factor * (radii[i] + radius[k]) + gap;
+                    if (dx * dx + dy * dy + dz * dz <= reach * reach && items[k] > i) {
+                        mine.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(items[k])});
+                    }
                 }
             });
+            std::sort(mine.begin() + before, mine.end());
         }
-        std::sort(mine.begin(), mine.end());
+    };
+    if (team != nullptr) {
+        team->run(found.size(), look);
+    } else {
+#pragma omp parallel for schedule(dynamic) if (found.size() > 2)
+        for (std::size_t part = 0; part < found.size(); ++part) {
+            look(part);
+        }
     }
     std::size_t count = 0;
     for (const auto& part : found) {

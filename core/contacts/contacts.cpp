@@ -6,7 +6,7 @@
 
 #include "core/contacts/cell_grid.hpp"
 #include "core/contacts/pair_kinematics.hpp"
-#include "core/contacts/rolling.hpp"
+#include "core/parallel/instruction_set.hpp"
 
 namespace proveta {
 
@@ -22,6 +22,7 @@ void Contacts::resize(std::size_t n) {
     viscous.resize(n);
     force.resize(n);
     active.resize(n, 1);
+    touching.resize(n);
 }
 
 double lever_share(const Spheres& spheres, std::int32_t i, std::int32_t j) {
@@ -43,11 +44,61 @@ bool bonded(const Bonds& bonds, const Pair& p) {
     return false;
 }
 
+// As `set_up_contacts`; team: who shares the work, nobody: the caller alone.
+void set_up(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& c, Team* team) {
+    const std::size_t kinds = materials.size();
+    std::vector<LoosePair> pairs;
+    pairs.reserve(kinds * kinds);
+    for (const auto& a : materials) {
+        for (const auto& b : materials) {
+            pairs.push_back(loose_pair(a, b));
+        }
+    }
+    c.rolls = std::any_of(pairs.begin(), pairs.end(), [](const LoosePair& p) { return p.rolling > 0.0; });
+    c.pulls = std::any_of(pairs.begin(), pairs.end(), [](const LoosePair& p) { return p.tension; });
+    c.resize(c.i.size());
+    const auto set_up_one = [&](std::size_t k) {
+        const auto i = static_cast<std::size_t>(c.i[k]);
+        const auto j = static_cast<std::size_t>(c.j[k]);
+        c.contact_distance[k] = spheres.radius[i] + spheres.radius[j];
+        if (spheres.packed) {
+            const Vec3 to = spheres.start.at(j) - spheres.start.at(i);
+            c.contact_distance[k] = std::min(distance_at_rest(to.x(), to.y(), to.z()), c.contact_distance[k]);
+        }
+        const LoosePair& pair =
+            pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
+        const auto body = [&](std::size_t s) { return LooseBody{spheres.radius[s], spheres.mass[s], spheres.inertia[s]}; };
+        c.law[k] = loose_contact(pair, body(i), body(j), contact_area(pair.area_rule, spheres, i, j, weight[i], weight[j]));
+        c.share[k] = lever_share(spheres, c.i[k], c.j[k]);
+    };
+    constexpr std::size_t per_part = 4096;
+    const auto set_up_part = [&](std::size_t part) {
+        for (std::size_t k = part * per_part; k < std::min(c.size(), (part + 1) * per_part); ++k) {
+            set_up_one(k);
+        }
+    };
+    const std::size_t parts = (c.size() + per_part - 1) / per_part;
+    if (team != nullptr) {
+        team->run(parts, set_up_part);
+    } else {
+        for (std::size_t part = 0; part < parts; ++part) {
+            set_up_part(part);
+        }
+    }
+    c.first.assign(1, 0);
+    for (std::size_t k = 0; k < c.size(); ++k) {
+        const auto block = static_cast<std::size_t>(c.i[k]) / spheres_per_block;
+        c.first.resize(std::max(c.first.size(), block + 1), static_cast<std::uint32_t>(k));
+    }
+    c.first.resize(blocks_of(spheres.size()) + 1, static_cast<std::uint32_t>(c.size()));
+    c.incidence = make_incidence(spheres.size(), c.i, c.j);
+}
+
 } // namespace
 
 Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const Clusters& clusters, const std::vector<Material>& materials,
-                         const std::vector<double>& weight, double skin, const Contacts& old) {
-    auto pairs = find_pairs(spheres.position, spheres.radius, 1.0, skin);
+                         const std::vector<double>& weight, double skin, const Contacts& old, Team* team) {
+    auto pairs = find_pairs(spheres.position, spheres.radius, 1.0, skin, team);
     std::erase_if(pairs, [&](const Pair& p) {
         const std::int32_t body = clusters.of(static_cast<std::size_t>(p.i));
         return bonded(bonds, p) || (body >= 0 && body == clusters.of(static_cast<std::size_t>(p.j)));
@@ -67,86 +118,37 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const Clust
             c.viscous.set(k, old.viscous.at(before));
         }
     }
-    set_up_contacts(spheres, materials, weight, c);
+    set_up(spheres, materials, weight, c, team);
     return c;
 }
 
-void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& c) {
-    const std::size_t kinds = materials.size();
-    std::vector<LoosePair> pairs;
-    pairs.reserve(kinds * kinds);
-    for (const auto& a : materials) {
-        for (const auto& b : materials) {
-            pairs.push_back(loose_pair(a, b));
-        }
-    }
-    c.resize(c.i.size());
-    c.rolls = false;
-    c.first.assign(1, 0);
-    for (std::size_t k = 0; k < c.size(); ++k) {
-        const auto i = static_cast<std::size_t>(c.i[k]);
-        const auto j = static_cast<std::size_t>(c.j[k]);
-        c.first.resize(std::max(c.first.size(), i / spheres_per_block + 1), static_cast<std::uint32_t>(k));
-        c.contact_distance[k] = spheres.radius[i] + spheres.radius[j];
-        if (spheres.packed) {
-            const Vec3 to = spheres.start.at(j) - spheres.start.at(i);
-            c.contact_distance[k] = std::min(distance_at_rest(to.x(), to.y(), to.z()), c.contact_distance[k]);
-        }
-        const LoosePair& pair =
-            pairs[static_cast<std::size_t>(spheres.material[i]) * kinds + static_cast<std::size_t>(spheres.material[j])];
-        const auto body = [&](std::size_t s) { return LooseBody{spheres.radius[s], spheres.mass[s], spheres.inertia[s]}; };
-        c.law[k] = loose_contact(pair, body(i), body(j), contact_area(pair.area_rule, spheres, i, j, weight[i], weight[j]));
-        c.rolls = c.rolls || c.law[k].rolling_arm > 0.0;
-        c.share[k] = lever_share(spheres, c.i[k], c.j[k]);
-    }
-    c.first.resize(blocks_of(spheres.size()) + 1, static_cast<std::uint32_t>(c.size()));
-    c.incidence = make_incidence(spheres.size(), c.i, c.j);
+void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight,
+                     Contacts& contacts) {
+    set_up(spheres, materials, weight, contacts, nullptr);
 }
 
-ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, std::size_t block, double elapsed, double dt, Loads& loads) {
-    const SphereView view = spheres.view();
+ContactView Contacts::view() {
+    return {i.data(),
+            j.data(),
+            row_j.data(),
+            share.data(),
+            contact_distance.data(),
+            law.data(),
+            {slip.x.data(), slip.y.data(), slip.z.data()},
+            {viscous.x.data(), viscous.y.data(), viscous.z.data()},
+            normal.data(),
+            {force.x.data(), force.y.data(), force.z.data()},
+            active.data(),
+            touching.data(),
+            pulls,
+            rolls};
+}
+
+ContactEnergies contact_forces(const SphereView& spheres, const Contacts& contacts, const ContactView& view, std::size_t block,
+                               double elapsed, double dt, Loads& loads) {
+    static const ContactKernel kernel = pick_variant(contact_kernel_baseline, contact_kernel_avx2, contact_kernel_avx512);
     ContactEnergies sum;
-    for (auto k = contacts.first[block]; k < contacts.first[block + 1]; ++k) {
-        const auto i = static_cast<std::size_t>(contacts.i[k]);
-        const auto j = static_cast<std::size_t>(contacts.j[k]);
-        const double reach = contacts.contact_distance[k];
-        const bool apart = (spheres.position.at(j) - spheres.position.at(i)).squaredNorm() > reach * reach;
-        if (apart && contacts.active[k] == 0 && !contacts.law[k].tension) {
-            continue; // most of the list: neighbours that do not touch
-        }
-        contacts.active[k] = apart ? 0 : 1;
-        const double old[3] = {contacts.slip.x[k], contacts.slip.y[k], contacts.slip.z[k]};
-        auto pair = pair_kinematics<double>(view, &contacts.i[k], &contacts.j[k], contacts.share[k], old, elapsed);
-        // The dashpots' last force, taken apart along the pair's present frame.
-        const double last[3] = {contacts.viscous.x[k], contacts.viscous.y[k], contacts.viscous.z[k]};
-        const double pulled = last[0] * pair.n[0] + last[1] * pair.n[1] + last[2] * pair.n[2];
-        contact::State<double> state;
-        state.viscous = -pulled;
-        for (int c = 0; c < 3; ++c) {
-            state.u_t[c] = pair.turned[c];
-            state.viscous_t[c] = last[c] - pulled * pair.n[c];
-        }
-        const auto r = advance(contacts.law[k], reach - pair.distance, -pair.separation * elapsed, elapsed, pair.slip, state);
-        contacts.slip.set(k, {state.u_t[0], state.u_t[1], state.u_t[2]});
-        contacts.viscous.set(k, {state.viscous_t[0] - state.viscous * pair.n[0], state.viscous_t[1] - state.viscous * pair.n[1],
-                                 state.viscous_t[2] - state.viscous * pair.n[2]});
-        contacts.normal[k] = r.normal;
-        double couple[3] = {0.0, 0.0, 0.0};
-        const LooseContact& law = contacts.law[k];
-        if (law.rolling_arm > 0.0 && r.normal > 0.0) {
-            const Vec3 spin = spheres.spin.at(i) - spheres.spin.at(j);
-            const double relative[3] = {spin.x(), spin.y(), spin.z()};
-            const auto rolling = rolling::torque<double>(law.rolling_arm, r.normal, law.reduced_inertia, relative, dt);
-            std::copy_n(rolling.torque, 3, couple);
-            sum.friction += rolling.power * elapsed;
-        }
-        const auto force =
-            add_pair_loads(loads.rows(), &contacts.i[k], &contacts.row_j[k], pair, contacts.share[k], r.normal, r.shear, couple);
-        contacts.force.set(k, {force.x[0], force.x[1], force.x[2]});
-        sum.stored += r.stored;
-        sum.friction += r.friction_work;
-        sum.dashpot += r.dashpot_work;
-    }
+    kernel(spheres, view, loads.rows(), contacts.first[block], contacts.first[block + 1], {elapsed, dt}, sum);
     return sum;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/bonds/bonds.hpp"
 #include "core/bonds/material.hpp"
+#include "core/contacts/contact_kernel.hpp"
 #include "core/contacts/incidence.hpp"
 #include "core/contacts/loads.hpp"
 #include "core/contacts/loose.hpp"
@@ -25,34 +26,31 @@ struct Contacts {
     std::vector<double> normal;           ///< F_n of the last step, N
     VectorField force;                    ///< of j on i at the last step, N
     std::vector<std::uint8_t> active;     ///< touched at the last step, so that there may be a history
+    std::vector<std::uint32_t> touching;  ///< scratch of the kernel
     std::vector<std::uint32_t> first;     ///< first contact of each block of spheres, and the number of contacts
     Incidence incidence;
     bool rolls = false; ///< some pair has rolling resistance
+    bool pulls = false; ///< some pair may pull
 
     [[nodiscard]] std::size_t size() const { return i.size(); }
     void resize(std::size_t n);
+    [[nodiscard]] ContactView view();
 };
 
 /// Lever arm of i over the distance for a contact of spheres that just touch.
 double lever_share(const Spheres& spheres, std::int32_t i, std::int32_t j);
 
-/// Sums over the contacts of one step, J.
-struct ContactEnergies {
-    double stored = 0.0;
-    double friction = 0.0;
-    double dashpot = 0.0;
-};
-
 /// Lists anew all unbonded pairs of different bodies nearer than R_i + R_j + skin, keeping the history of those that were listed. weight:
-/// area weights of `make_bonds`; skin in m.
+/// area weights of `make_bonds`; skin in m; team: who shares the work, nobody: OpenMP's threads.
 Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const Clusters& clusters, const std::vector<Material>& materials,
-                         const std::vector<double>& weight, double skin, const Contacts& old);
+                         const std::vector<double>& weight, double skin, const Contacts& old, Team* team = nullptr);
 
 /// Fills in what follows from the pairs themselves: contact distances, laws, lever shares, incidence.
 void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& contacts);
 
 /// Advances the contacts of one block of spheres by `elapsed` seconds and adds their forces and rolling resistance to the loads. dt: the
 /// step that the forces will act for, s.
-ContactEnergies contact_forces(const Spheres& spheres, Contacts& contacts, std::size_t block, double elapsed, double dt, Loads& loads);
+ContactEnergies contact_forces(const SphereView& spheres, const Contacts& contacts, const ContactView& view, std::size_t block,
+                               double elapsed, double dt, Loads& loads);
 
 } // namespace proveta

@@ -4,6 +4,7 @@
 #include "core/bonds/material.hpp"
 #include "core/contacts/hertz_law.hpp"
 #include "core/contacts/linear_law.hpp"
+#include "core/contacts/loose_contact.hpp"
 
 namespace proveta {
 
@@ -19,18 +20,6 @@ struct LoosePair {
     double damping = 0.0;     ///< xi
     double friction = 0.0;    ///< mu
     double rolling = 0.0;     ///< eta_r
-};
-
-/// Constants of one contact. Stiffnesses in N/m and dashpots in N s/m for the linear law; for the Hertzian one those at an overlap of one
-/// metre, N/m^(3/2) and N s/m^(5/4).
-struct LooseContact {
-    ContactLaw law = ContactLaw::linear;
-    bool tension = false;
-    double k_n = 0.0, k_t = 0.0;
-    double c_n = 0.0, c_t = 0.0;
-    double friction = 0.0;
-    double rolling_arm = 0.0;     ///< eta_r R_r, m
-    double reduced_inertia = 0.0; ///< of the relative spin, kg m2
 };
 
 /// Spheres of materials a and b, symmetric in both.

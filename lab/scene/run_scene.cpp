@@ -42,7 +42,7 @@ Json manifest_of(const Scene& scene, const RunOptions& options, const std::strin
 class Performance {
   public:
     Performance(const Scene& scene, ScenePlay& play, const OutputFolder& out, Progress& progress)
-        : scene_(scene), play_(play), out_(out), progress_(progress) {
+        : scene_(scene), play_(play), out_(out), progress_(progress), stage_(stage_of(scene, play.model().walls.surfaces)) {
         seen_.curve = empty_scene_curve(play.model());
         seen_.energy = empty_scene_energy();
     }
@@ -89,7 +89,7 @@ class Performance {
   private:
     void picture(const std::string& when) {
         const Vec3 gravity(scene_.gravity[0], scene_.gravity[1], scene_.gravity[2]);
-        for (auto& p : scene_slices(play_.model(), gravity, when)) {
+        for (auto& p : scene_slices(play_.model(), gravity, stage_, when)) {
             seen_.pictures.push_back(std::move(p));
         }
     }
@@ -130,6 +130,7 @@ class Performance {
     Progress& progress_;
     SceneSeen seen_;
     Clock::time_point begin_ = Clock::now();
+    Eigen::AlignedBox3d stage_; // that pictures show
     std::int64_t samples_ = 0;
     std::int64_t fields_ = 0;
     std::vector<report::SeriesEntry> series_;

@@ -96,34 +96,41 @@ report::Geometry surface_fields(const Model& m) {
     return g;
 }
 
-std::vector<report::Picture> scene_slices(const Model& m, const Vec3& gravity, const std::string& when) {
+Eigen::AlignedBox3d stage_of(const Scene& scene, const std::vector<Surface>& surfaces) {
+    const auto box = [](const auto& region) {
+        return Eigen::AlignedBox3d(Vec3(region.from[0], region.from[1], region.from[2]), Vec3(region.to[0], region.to[1], region.to[2]));
+    };
+    Eigen::AlignedBox3d regions;
+    for (const auto& p : scene.particles) {
+        regions.extend(box(p));
+    }
+    for (const auto* list : {&scene.outlets, &scene.measures}) {
+        for (const auto& region : *list) {
+            regions.extend(box(region));
+        }
+    }
+    Eigen::AlignedBox3d stage = regions;
+    for (const auto& surface : surfaces) {
+        for (const auto& v : surface.geometry.mesh.vertex) {
+            stage.extend(surface.to_space(v));
+        }
+    }
+    const Vec3 around = Vec3::Constant(0.5 * regions.diagonal().norm()); // surfaces may reach far beyond what happens
+    return stage.intersection({regions.min() - around, regions.max() + around});
+}
+
+std::vector<report::Picture> scene_slices(const Model& m, const Vec3& gravity, const Eigen::AlignedBox3d& stage, const std::string& when) {
     int down = 2;
     if (!gravity.isZero()) {
         gravity.cwiseAbs().maxCoeff(&down);
     }
     const double sense = gravity[down] > 0.0 ? -1.0 : 1.0;
-    Eigen::AlignedBox3d particles;
-    for (std::size_t k = 0; k < m.spheres.size(); ++k) {
-        particles.extend(Vec3(m.spheres.position.at(k) - Vec3::Constant(m.spheres.radius[k])));
-        particles.extend(Vec3(m.spheres.position.at(k) + Vec3::Constant(m.spheres.radius[k])));
-    }
-    if (particles.isEmpty()) {
-        return {};
-    }
-    // Surfaces may reach far beyond what happens.
-    Eigen::AlignedBox3d shown = particles;
-    for (const auto& surface : m.walls.surfaces) {
-        for (const auto& v : surface.geometry.mesh.vertex) {
-            shown.extend(surface.to_space(v));
-        }
-    }
-    const Vec3 around = Vec3::Constant(0.5 * particles.diagonal().norm());
-    shown = shown.intersection({particles.min() - around, particles.max() + around});
     const double half = mean_radius(m.spheres);
-    const auto newest = static_cast<double>(*std::max_element(m.spheres.id.begin(), m.spheres.id.end())) + 1.0;
+    const auto newest =
+        m.spheres.size() == 0 ? 1.0 : static_cast<double>(*std::max_element(m.spheres.id.begin(), m.spheres.id.end())) + 1.0;
     std::vector<report::Picture> out;
     for (const int side : {(down + 1) % 3, (down + 2) % 3}) {
-        View view{side, down, 3 - side - down, particles.center()[3 - side - down], sense, shown};
+        View view{side, down, 3 - side - down, stage.center()[3 - side - down], sense, stage};
         report::Picture p;
         for (const auto& surface : m.walls.surfaces) {
             for (std::size_t f = 0; f < surface.geometry.mesh.faces(); ++f) {
@@ -137,7 +144,7 @@ std::vector<report::Picture> scene_slices(const Model& m, const Vec3& gravity, c
             }
         }
         p.title = fmt::format("{}, across {}", when, "xyz"[view.out]);
-        p.caption = "Slice through the middle of the particles, two mean radii thick. Shade: the order in which they came, the last ones "
+        p.caption = "Slice through the middle, two mean radii thick. Shade: the order in which they came, the last ones "
                     "darkest.";
         p.width = view.shown.sizes()[side];
         p.height = view.shown.sizes()[down];

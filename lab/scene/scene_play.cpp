@@ -72,9 +72,9 @@ void ScenePlay::step(bool measure) {
     model_->step({}, measure);
 }
 
-// A wide skin lists many pairs that do not touch, a narrow one has them listed often. With s the skin over the mean radius, v the way a
-// step of what moves fastest over that radius, a step costs about (1 + s/2)^3 + c v/s, c being the cost of listing over that of a step at
-// s = 0. What was searched of late tells v; nothing here depends on the machine, so that runs repeat themselves.
+// A wide skin lists many pairs that do not touch, a narrow one has them listed often. With s the skin over the mean radius and v the way in
+// a step of what moves fastest over that radius, a step costs about 3/4 + (1 + s/2)^3 / 4 + 12 v/s: for the pairs that touch, for those
+// that are listed, and for listing. What was searched of late tells v; no clock is read, so that runs repeat themselves.
 void ScenePlay::choose_skin() {
     constexpr std::int64_t every = 2048;
     constexpr double listing = 12.0;
@@ -87,8 +87,8 @@ void ScenePlay::choose_skin() {
     searches_ = model_->searches();
     double best = 0.0;
     double least = std::numeric_limits<double>::infinity();
-    for (const double s : {0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0}) {
-        const double cost = std::pow(1.0 + 0.5 * s, 3) + listing * way / s;
+    for (const double s : {0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5}) {
+        const double cost = 0.75 + 0.25 * std::pow(1.0 + 0.5 * s, 3) + listing * way / s;
         if (cost < least) {
             least = cost;
             best = s;

@@ -5,7 +5,9 @@
 
 #include "core/boundaries/surface_shapes.hpp"
 #include "core/model.hpp"
+#include "specimens/checkpoint.hpp"
 #include "specimens/random.hpp"
+#include "tests/support.hpp"
 
 using namespace proveta;
 
@@ -155,6 +157,23 @@ TEST_CASE("what is thrown into a scene brings its energy along") {
     CHECK(model.ledger().initial - initial == Approx(0.5 * mass * 4.0).epsilon(1e-12));
     run(model, 5000);
     CHECK(std::fabs(model.ledger().relative_residual()) < 1e-3);
+}
+
+TEST_CASE("a model of clusters among surfaces goes on from a checkpoint bit for bit") {
+    const testing::TemporaryFolder folder;
+    const std::string file = folder.file("checkpoint.h5");
+    Model straight = heap();
+    straight.walls.surfaces[0].drive = {{0.1, 0, 0}, {0, 0, 1.0}};
+    run(straight, 1500);
+    save_checkpoint(straight, "{}", file);
+    run(straight, 1500);
+    Model resumed = heap();
+    load_checkpoint(resumed, file);
+    resumed.walls.surfaces[0].drive = {{0.1, 0, 0}, {0, 0, 1.0}};
+    run(resumed, 1500);
+    CHECK(resumed.state_hash() == straight.state_hash());
+    CHECK(resumed.ledger().friction == straight.ledger().friction);
+    CHECK(resumed.walls.surfaces[0].sums.reaction == straight.walls.surfaces[0].sums.reaction);
 }
 
 TEST_CASE("specimens with bonds or platens keep their particles") {
