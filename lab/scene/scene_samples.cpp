@@ -157,6 +157,7 @@ BoxContent content_of(const OutletInput& box, const Model& m) {
         if (region.contains(centre_of(m, k))) {
             ++out.particles;
             out.touching += touches[k];
+            out.bulk_density += mass_of(m, k) / region.volume();
         }
     }
     out.touching /= std::max(1.0, static_cast<double>(out.particles));

@@ -31,8 +31,9 @@ void sample_scene(const Model& model, const Feed& feed, report::Table& curve, re
 /// What a box holds.
 struct BoxContent {
     std::string name;
-    double solid_fraction = 0.0; ///< of the box, overlaps counted once
-    double touching = 0.0;       ///< of the particles whose centre is inside
+    double solid_fraction = 0.0; ///< share of the box inside spheres, overlaps counted once
+    double bulk_density = 0.0;   ///< mass of the particles whose centre is inside over the box's volume, kg/m3
+    double touching = 0.0;       ///< mean number of contacts of these
     std::size_t particles = 0;   ///< these
 };
 BoxContent content_of(const OutletInput& box, const Model& model);
