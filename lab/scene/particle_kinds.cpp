@@ -46,12 +46,18 @@ std::vector<double> sizes_of(const ParticleInput& p, std::uint64_t seed, const S
     return sizes;
 }
 
-// Form of size 1: the diameter of the sphere of its volume.
+// Form of size 1: the diameter of the sphere of its volume. Inscribed spheres fill less than the body; they are enlarged so that their
+// union has its volume, for a bed of clusters to be as dense as one of bodies.
 ClusterShape form_of(const SurfaceMesh& mesh, std::int64_t spheres) {
     FillRule rule;
     rule.spheres = static_cast<int>(spheres);
     rule.cells = 32;
-    const ClusterShape shape = fill_with_spheres(mesh, rule);
+    ClusterShape shape = fill_with_spheres(mesh, rule);
+    const double factor = std::cbrt(shape.volume / mass_properties(shape.centre, shape.radius).volume);
+    for (auto& c : shape.centre) {
+        c *= factor;
+    }
+    scale(shape.radius, factor);
     return scaled(shape, 1.0 / std::cbrt(6.0 * shape.volume / std::numbers::pi));
 }
 

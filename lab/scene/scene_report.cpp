@@ -27,7 +27,7 @@ std::vector<report::Scalar> results_of(const ScenePlay& play, const SceneSeen& s
                    "of two spheres, or of a sphere and a surface, over the smaller radius, at any sample"});
     for (const auto& box : seen.measures) {
         out.push_back({"solid_fraction_" + box.name, "Solid fraction in " + box.name, box.solid_fraction, "",
-                       "share of the box inside spheres, overlaps once; a cluster's spheres fill less than its body"});
+                       "share of the box inside spheres, overlaps once"});
         out.push_back({"bulk_density_" + box.name, "Bulk density in " + box.name, box.bulk_density, "kg/m3",
                        "mass of the particles whose centre is inside over the box's volume"});
         out.push_back({"touching_" + box.name, "Contacts a particle in " + box.name, box.touching, "",
