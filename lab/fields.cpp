@@ -33,17 +33,6 @@ void sphere_states(const Bench& bench, std::vector<double>& stress, std::vector<
     }
 }
 
-std::vector<double> interleaved(const VectorField& f) {
-    std::vector<double> out;
-    out.reserve(3 * f.size());
-    for (std::size_t k = 0; k < f.size(); ++k) {
-        out.insert(out.end(), {f.x[k], f.y[k], f.z[k]});
-    }
-    return out;
-}
-
-template <class T> std::vector<double> as_numbers(const std::vector<T>& values) { return {values.begin(), values.end()}; }
-
 } // namespace
 
 report::Geometry sphere_fields(const Bench& bench) {
@@ -58,13 +47,13 @@ report::Geometry sphere_fields(const Bench& bench) {
     std::vector<double> damage;
     sphere_states(bench, stress, damage);
     g.point_arrays = {{"radius", 1, m.spheres.radius},
-                      {"displacement", 3, interleaved(moved)},
-                      {"velocity", 3, interleaved(m.spheres.velocity)},
+                      {"displacement", 3, report::interleaved(moved)},
+                      {"velocity", 3, report::interleaved(m.spheres.velocity)},
                       {"stress", 6, stress},
                       {"damage", 1, damage},
-                      {"fragment", 1, as_numbers(fragments(m))},
-                      {"group", 1, as_numbers(m.spheres.group)},
-                      {"material", 1, as_numbers(m.spheres.material)}};
+                      {"fragment", 1, report::as_numbers(fragments(m))},
+                      {"group", 1, report::as_numbers(m.spheres.group)},
+                      {"material", 1, report::as_numbers(m.spheres.material)}};
     return g;
 }
 
@@ -77,7 +66,7 @@ report::Geometry bond_fields(const Bench& bench) {
         g.cells.push_back({m.bonds.i[b], m.bonds.j[b]});
         damage.push_back(std::max(m.bonds.damage_n[b], m.bonds.damage_t[b]));
     }
-    g.cell_arrays = {{"mode", 1, as_numbers(m.bonds.mode)},
+    g.cell_arrays = {{"mode", 1, report::as_numbers(m.bonds.mode)},
                      {"damage", 1, damage},
                      {"failure_criterion", 1, m.bonds.criterion},
                      {"normal_force", 1, m.bonds.normal},

@@ -16,6 +16,15 @@
 
 namespace proveta::report {
 
+std::vector<double> interleaved(const VectorField& f) {
+    std::vector<double> out;
+    out.reserve(3 * f.size());
+    for (std::size_t k = 0; k < f.size(); ++k) {
+        out.insert(out.end(), {f.x[k], f.y[k], f.z[k]});
+    }
+    return out;
+}
+
 namespace {
 
 void add_arrays(vtkFieldData* target, const std::vector<FieldArray>& arrays) {

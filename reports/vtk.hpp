@@ -17,6 +17,10 @@ struct FieldArray {
     std::vector<double> values;
 };
 
+/// Values of an array: x, y, z of one point after the other; numbers of any kind.
+std::vector<double> interleaved(const VectorField& field);
+template <class T> std::vector<double> as_numbers(const std::vector<T>& values) { return {values.begin(), values.end()}; }
+
 /// Points (m), the cells on them (two points: a line, more: a polygon; none: one vertex a point), and arrays on both.
 struct Geometry {
     VectorField points;

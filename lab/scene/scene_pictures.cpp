@@ -10,17 +10,6 @@ namespace proveta {
 
 namespace {
 
-std::vector<double> interleaved(const VectorField& f) {
-    std::vector<double> out;
-    out.reserve(3 * f.size());
-    for (std::size_t k = 0; k < f.size(); ++k) {
-        out.insert(out.end(), {f.x[k], f.y[k], f.z[k]});
-    }
-    return out;
-}
-
-template <class T> std::vector<double> as_numbers(const std::vector<T>& values) { return {values.begin(), values.end()}; }
-
 // The plane of a picture and what it shows.
 struct View {
     int right, up, out;
@@ -68,9 +57,12 @@ report::Geometry particle_fields(const Model& m) {
             }
         }
     }
-    g.point_arrays = {{"radius", 1, m.spheres.radius},           {"velocity", 3, interleaved(m.spheres.velocity)},
-                      {"spin", 3, interleaved(m.spheres.spin)},  {"force", 3, interleaved(force)},
-                      {"particle", 1, as_numbers(m.spheres.id)}, {"kind", 1, as_numbers(m.spheres.group)}};
+    g.point_arrays = {{"radius", 1, m.spheres.radius},
+                      {"velocity", 3, report::interleaved(m.spheres.velocity)},
+                      {"spin", 3, report::interleaved(m.spheres.spin)},
+                      {"force", 3, report::interleaved(force)},
+                      {"particle", 1, report::as_numbers(m.spheres.id)},
+                      {"kind", 1, report::as_numbers(m.spheres.group)}};
     return g;
 }
 
