@@ -67,13 +67,13 @@ class Performance {
                     seen_.status = "interrupted";
                 }
             }
+            play_.step(true); // the end itself, measured
         } catch (const NumericalFailure& e) {
             seen_.stopped_by = std::string("the calculation failed: ") + e.what();
             seen_.status = "failed";
         }
         seen_.seconds = since(begin_);
-        if (seen_.status != "failed") {
-            play_.step(true); // the end itself, measured
+        if (seen_.status != "failed" || seen_.curve.rows.empty()) {
             sample_scene(play_.model(), play_.feed(), seen_.curve, seen_.energy);
         }
         if (scene_.output.fields > 0) {

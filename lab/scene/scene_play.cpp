@@ -20,6 +20,8 @@ std::vector<Material> materials_of(const Scene& scene) {
     return out;
 }
 
+constexpr double longest_way = 0.5; // of a sphere or a surface in a step, over the mean radius: who goes farther might pass through another
+
 Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Material>& materials) {
     const SceneNumerics& in = scene.numerics;
     Numerics n;
@@ -28,7 +30,7 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
     n.skin = in.skin.word.empty() ? in.skin.number : 0.2;
     n.damping = {in.damping, in.damping};
     n.refuse_unstable = in.above_bound == "refuse";
-    n.fastest = 0.5; // who is flung out of a pinch is no failure; who goes a radius a step might pass through another
+    n.fastest = longest_way; // who is flung out of a pinch is no failure
     n.gravity = {scene.gravity[0], scene.gravity[1], scene.gravity[2]};
     n.overlap_growth = in.largest_overlap * mean_radius(feed.kinds());
     return n;
@@ -36,7 +38,7 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
 
 } // namespace
 
-ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene) {
+ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene), mean_radius_(mean_radius(feed_.kinds())) {
     const auto materials = materials_of(scene);
     auto surfaces = make_surfaces(scene, materials, notes_);
     Population first = feed_.first(surfaces);
@@ -59,7 +61,7 @@ ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene) {
         numerics.time_step = scene.numerics.safety * step.stable; // the first particles touch more closely than reckoned
         set_up();
     }
-    model_->set_skin(numerics.skin * mean_radius(feed_.kinds())); // the first particles may be none, or the smallest
+    model_->set_skin(numerics.skin * mean_radius_); // the first particles may be none, or the smallest
 }
 
 void ScenePlay::step(bool measure) {
@@ -68,6 +70,13 @@ void ScenePlay::step(bool measure) {
     for (std::size_t k = 0; k < motions_.size(); ++k) {
         Surface& surface = model_->walls.surfaces[k];
         surface.drive = motions_[k]->at(model_->time(), model_->dt(), surface, model_->spheres);
+        const double way = (surface.drive.velocity.norm() + surface.drive.spin.norm() * surface.reach()) * model_->dt();
+        if (!(way <= longest_way * mean_radius_)) {
+            throw NumericalFailure(
+                fmt::format("surface \"{}\" goes {:.3g} m in a step of {:.3g} s, more than {:.2g} mean radii, and might pass "
+                            "through particles: let it go slower or give a shorter time_step",
+                            surface.name, way, model_->dt(), longest_way));
+        }
     }
     model_->step({}, measure);
 }
@@ -81,7 +90,7 @@ void ScenePlay::choose_skin() {
     if (scene_.numerics.skin.word.empty() || model_->steps() < chosen_at_ + every) {
         return;
     }
-    const double radius = mean_radius(feed_.kinds());
+    const double radius = mean_radius_;
     const double way = model_->skin() / radius * static_cast<double>(model_->searches() - searches_) / static_cast<double>(every);
     chosen_at_ = model_->steps();
     searches_ = model_->searches();

@@ -31,6 +31,7 @@ class ScenePlay {
 
     const Scene& scene_;
     Feed feed_;
+    double mean_radius_; // of all spheres to come, m
     std::vector<std::string> notes_;
     std::vector<std::unique_ptr<SurfaceMotion>> motions_;
     std::unique_ptr<Model> model_;

@@ -170,6 +170,13 @@ class Scenes(Case):
         done = self.run_scene(scene(particles=[grown], numerics={"time_step": "50 ms"}), code=3)
         self.assertIn("stable", done.stdout + done.stderr)
 
+    def test_a_surface_that_would_pass_through_particles_ends_the_run(self):
+        ram = {"name": "ram", "shape": "plane", "size": [0.1, 0.1], "position": [0, 0, 0.3],
+               "motion": {"kind": "velocity", "velocity": [0, 0, "-300 m/s"]}}
+        done = self.run_scene(scene(surfaces=[BOX, ram], stop={"time": 0.01}), code=3)
+        self.assertIn('surface "ram" goes', done.stdout + done.stderr)
+        self.assertEqual(self.result()["status"], "failed")
+
     def test_examples_have_no_problems(self):
         for name in ("mixer", "silo", "ballast"):
             done = self.run_program("scene", EXAMPLES / f"{name}.json", "--check")
