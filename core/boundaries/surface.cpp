@@ -155,13 +155,8 @@ void search_surface(const Spheres& spheres, const std::vector<Material>& materia
         const std::size_t begin = part * spheres_per_block;
         list_block(spheres, skin, surface, begin, std::min(spheres.size(), begin + spheres_per_block), found[part]);
     };
-    if (team != nullptr) {
-        team->run(found.size(), look);
-    } else {
-        for (std::size_t part = 0; part < found.size(); ++part) {
-            look(part);
-        }
-    }
+    Team alone(1);
+    (team != nullptr ? *team : alone).run(found.size(), look);
     surface.sphere.clear();
     surface.near_first.assign(1, 0);
     surface.near_face.clear();

@@ -78,13 +78,8 @@ void set_up(const Spheres& spheres, const std::vector<Material>& materials, cons
         }
     };
     const std::size_t parts = (c.size() + per_part - 1) / per_part;
-    if (team != nullptr) {
-        team->run(parts, set_up_part);
-    } else {
-        for (std::size_t part = 0; part < parts; ++part) {
-            set_up_part(part);
-        }
-    }
+    Team alone(1);
+    (team != nullptr ? *team : alone).run(parts, set_up_part);
     c.first.assign(1, 0);
     for (std::size_t k = 0; k < c.size(); ++k) {
         const auto block = static_cast<std::size_t>(c.i[k]) / spheres_per_block;

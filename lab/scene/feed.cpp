@@ -7,15 +7,12 @@
 #include <numbers>
 
 #include "core/geometry/hilbert.hpp"
+#include "lab/scene/vectors.hpp"
 #include "specimens/stones.hpp"
 
 namespace proveta {
 
 namespace {
-
-Vec3 vector(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
-
-Eigen::AlignedBox3d box_of(const std::vector<double>& from, const std::vector<double>& to) { return {vector(from), vector(to)}; }
 
 // Uniform over all attitudes (K. Shoemake, Graphics Gems III, 124, 1992).
 rotation::Quaternion any_attitude(Random& random) {
@@ -66,11 +63,11 @@ void Feed::place(const ParticleKind& kind, std::size_t number, const PlannedPart
     ++counts_[number].placed;
 }
 
-// Spheres around the particles are packed; then those that would reach into a surface, or into what is there, are left out.
+// Spheres around the particles are packed; then those that would reach into a surface are left out.
 void Feed::grow(std::size_t number, Room& room, Population& bodies, Population& alone) {
     const ParticleKind& kind = kinds_[number];
     const ParticleInput& p = scene_.particles[number];
-    const auto box = box_of(p.from, p.to);
+    const auto box = box_of(p);
     std::vector<double> radii;
     double volume = 0.0;
     for (const auto& planned : kind.plan) {
@@ -108,7 +105,7 @@ void Feed::pour(std::size_t number, double time, Room& room, Population& bodies,
     constexpr int tries = 200; // in vain, one after the other, before the box counts as full
     const ParticleKind& kind = kinds_[number];
     const ParticleInput& p = scene_.particles[number];
-    const auto box = box_of(p.from, p.to);
+    const auto box = box_of(p);
     std::size_t& placed = counts_[number].placed;
     std::size_t due = kind.plan.size();
     if (p.rate.word.empty()) {
@@ -165,10 +162,10 @@ void Feed::put_in(double time, const std::vector<Surface>& surfaces, const Spher
 
 Population Feed::first(const std::vector<Surface>& surfaces) {
     for (const auto& p : scene_.particles) {
-        domain_.extend(box_of(p.from, p.to));
+        domain_.extend(box_of(p));
     }
     for (const auto& o : scene_.outlets) {
-        domain_.extend(box_of(o.from, o.to));
+        domain_.extend(box_of(o));
     }
     for (const auto& surface : surfaces) {
         for (const auto& v : surface.geometry.mesh.vertex) {
@@ -192,7 +189,7 @@ Population Feed::first(const std::vector<Surface>& surfaces) {
 
 bool Feed::stays(const Vec3& at) {
     for (std::size_t o = 0; o < scene_.outlets.size(); ++o) {
-        if (box_of(scene_.outlets[o].from, scene_.outlets[o].to).contains(at)) {
+        if (box_of(scene_.outlets[o]).contains(at)) {
             ++taken_[o];
             return false;
         }

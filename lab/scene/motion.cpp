@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "lab/scene/vectors.hpp"
 #include "lab/trials/csv.hpp"
 
 namespace proveta {
@@ -177,8 +178,7 @@ class Table : public SurfaceMotion {
 // that it never goes too far. Nothing touching, it goes as fast as it may.
 class Servo : public SurfaceMotion {
   public:
-    explicit Servo(const MotionInput& m)
-        : along_(Vec3(m.along[0], m.along[1], m.along[2]).normalized()), force_(m.force), most_(m.most_speed) {}
+    explicit Servo(const MotionInput& m) : along_(vector(m.along).normalized()), force_(m.force), most_(m.most_speed) {}
     SurfaceVelocity at(double, double dt, const Surface& surface, const Spheres& spheres) override {
         constexpr double steps = 50.0;
         const double lacks = force_ + along_.dot(surface.sums.reaction);
@@ -206,7 +206,6 @@ class Timed : public SurfaceMotion {
 };
 
 std::unique_ptr<SurfaceMotion> untimed(const MotionInput& m, const std::string& folder) {
-    const auto vector = [](const std::vector<double>& v) { return Vec3(v[0], v[1], v[2]); };
     if (m.kind == "expression") {
         return std::make_unique<OfTime>(m);
     }
@@ -246,7 +245,7 @@ void check_motion(const MotionInput& m, const std::string& folder, const std::st
         if (m.force <= 0.0 || m.most_speed <= 0.0) {
             problems.push_back({source, path, "a servo without force or most_speed", "both, above 0", ""});
         }
-        if (Vec3(m.along[0], m.along[1], m.along[2]).norm() < 1e-12) {
+        if (vector(m.along).norm() < 1e-12) {
             problems.push_back({source, path + "/along", "a vector without length", "a direction", ""});
         }
     }

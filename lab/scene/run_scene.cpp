@@ -13,6 +13,7 @@
 #include "lab/results.hpp"
 #include "lab/scene/scene_play.hpp"
 #include "lab/scene/scene_report.hpp"
+#include "lab/scene/vectors.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
 
@@ -88,8 +89,7 @@ class Performance {
 
   private:
     void picture(const std::string& when) {
-        const Vec3 gravity(scene_.gravity[0], scene_.gravity[1], scene_.gravity[2]);
-        for (auto& p : scene_slices(play_.model(), gravity, stage_, when)) {
+        for (auto& p : scene_slices(play_.model(), vector(scene_.gravity), stage_, when)) {
             seen_.pictures.push_back(std::move(p));
         }
     }

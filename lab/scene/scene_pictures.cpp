@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lab/scene/scene_samples.hpp"
+#include "lab/scene/vectors.hpp"
 
 namespace proveta {
 
@@ -89,16 +90,13 @@ report::Geometry surface_fields(const Model& m) {
 }
 
 Eigen::AlignedBox3d stage_of(const Scene& scene, const std::vector<Surface>& surfaces) {
-    const auto box = [](const auto& region) {
-        return Eigen::AlignedBox3d(Vec3(region.from[0], region.from[1], region.from[2]), Vec3(region.to[0], region.to[1], region.to[2]));
-    };
     Eigen::AlignedBox3d regions;
     for (const auto& p : scene.particles) {
-        regions.extend(box(p));
+        regions.extend(box_of(p));
     }
     for (const auto* list : {&scene.outlets, &scene.measures}) {
         for (const auto& region : *list) {
-            regions.extend(box(region));
+            regions.extend(box_of(region));
         }
     }
     Eigen::AlignedBox3d stage = regions;

@@ -7,6 +7,7 @@
 
 #include "lab/scene/scene_samples.hpp"
 #include "lab/scene/scene_surfaces.hpp"
+#include "lab/scene/vectors.hpp"
 
 namespace proveta {
 
@@ -31,7 +32,7 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
     n.damping = {in.damping, in.damping};
     n.refuse_unstable = in.above_bound == "refuse";
     n.fastest = longest_way; // who is flung out of a pinch is no failure
-    n.gravity = {scene.gravity[0], scene.gravity[1], scene.gravity[2]};
+    n.gravity = vector(scene.gravity);
     n.overlap_growth = in.largest_overlap * mean_radius(feed.kinds());
     return n;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/scene/vectors.hpp"
+
 namespace proveta {
 
 namespace {
@@ -151,7 +153,7 @@ void sample_scene(const Model& m, const Feed& feed, report::Table& curve, report
 BoxContent content_of(const OutletInput& box, const Model& m) {
     BoxContent out;
     out.name = box.name;
-    const Eigen::AlignedBox3d region(Vec3(box.from[0], box.from[1], box.from[2]), Vec3(box.to[0], box.to[1], box.to[2]));
+    const Eigen::AlignedBox3d region = box_of(box);
     const auto touches = touches_of(m);
     for (std::size_t k = 0; k < touches.size(); ++k) {
         if (region.contains(centre_of(m, k))) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/boundaries/surface_shapes.hpp"
+#include "lab/scene/vectors.hpp"
 #include "specimens/surface_import.hpp"
 
 namespace proveta {
@@ -36,8 +37,6 @@ SurfaceMesh made(const SurfaceInput& s) {
     return cylinder_surface(s.radius, top, s.height, whole(s.sides), s.ends == "bottom" || s.ends == "both",
                             s.ends == "top" || s.ends == "both", whole(s.rows));
 }
-
-Vec3 vector(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 // Turns the mesh and puts it where it belongs, as its own frame sees it: about the pivot of its motion, which becomes the origin.
 Vec3 put_into_place(const SurfaceInput& s, SurfaceMesh& mesh) {
