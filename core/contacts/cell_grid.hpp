@@ -26,25 +26,8 @@ class CellGrid {
     /// positions: centres in m; width: wished edge of a cell in m, positive.
     CellGrid(const VectorField& positions, double width);
 
-    /// Calls visit(j) for every item in the 27 cells around the cell of item i, i itself included, in a fixed order.
-    template <class Visit> void near(std::size_t i, Visit&& visit) const {
-        const auto c = cell_of_[i];
-        for (std::int64_t z = c[2] - 1; z <= c[2] + 1; ++z) {
-            for (std::int64_t y = c[1] - 1; y <= c[1] + 1; ++y) {
-                for (std::int64_t x = c[0] - 1; x <= c[0] + 1; ++x) {
-                    if (x < 0 || y < 0 || z < 0 || x >= count_[0] || y >= count_[1] || z >= count_[2]) {
-                        continue;
-                    }
-                    const auto cell = static_cast<std::size_t>((z * count_[1] + y) * count_[0] + x);
-                    for (auto k = offset_[cell]; k < offset_[cell + 1]; ++k) {
-                        visit(items_[k]);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Calls visit(begin, end) for the runs of `items` that these 27 cells are, in the same order.
+    /// Calls visit(begin, end) for the runs of `items` that the 27 cells around the cell of item i are, i itself included, in a fixed
+    /// order.
     template <class Visit> void runs(std::size_t i, Visit&& visit) const {
         const auto c = cell_of_[i];
         const std::int64_t left = std::max<std::int64_t>(c[0] - 1, 0);
