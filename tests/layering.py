@@ -22,7 +22,7 @@ LIBRARIES = {
     r"vtk": ("reports", "specimens", "tests"),
     r"voro\+\+/": ("specimens",),
     r"fmt/": ("core/input", "materials", "specimens", "reports", "lab", "tests"),
-    r"spdlog/|CLI/|dlib/|boost/": ("lab",),
+    r"spdlog/|CLI/|dlib/|boost/|muParser": ("lab",),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 
