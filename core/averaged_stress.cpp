@@ -40,6 +40,14 @@ std::vector<Mat3> sphere_stresses(const Spheres& s, const Bonds& bonds, const Co
             }
         }
     }
+    for (const auto& body : walls.bodies) {
+        for (const auto& touches : body.touches) {
+            for (const auto& t : touches) {
+                const auto i = static_cast<std::size_t>(t.sphere);
+                sum[i] -= (t.point - s.position.at(i)) * t.force.transpose();
+            }
+        }
+    }
     for (const auto& pressure : pressures) {
         for (std::size_t k = 0; k < pressure.force.size(); ++k) {
             const auto i = static_cast<std::size_t>(pressure.sphere[k]);

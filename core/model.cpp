@@ -54,7 +54,7 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
                             short_step || !clusters.empty() ? 0.0 : numerics_.mass_scaling, bound_);
     scaling_.step_before *= damping_share(numerics_.damping);
     scaling_.step_after *= damping_share(numerics_.damping);
-    stable_ = scaling_.step_after;
+    stable_ = std::min(scaling_.step_after, stable_step_of_bodies());
     dt_ = numerics_.safety * stable_;
     if (numerics_.time_step) {
         dt_ = *numerics_.time_step;
@@ -119,6 +119,15 @@ void Model::search() {
             surfaces = true;
         }
     }
+    body_tracks_.resize(walls.bodies.size());
+    for (std::size_t p = 0; p < body_tracks_.size(); ++p) {
+        Deformable& body = walls.bodies[p];
+        if (const double way = body.way(); search_anew_ || way > skin_ || body_tracks_[p].beyond(skin_ - way, spheres.position)) {
+            search_deformable(spheres, materials, skin_, body, *team_);
+            body_tracks_[p].restart(spheres.position);
+            surfaces = true;
+        }
+    }
     search_anew_ = false;
     if (neighbours || surfaces) {
         keep_stable(first);
@@ -130,13 +139,14 @@ void Model::search() {
 void Model::keep_stable(bool first) {
     const double share = damping_share(numerics_.damping);
     if (first) {
-        stable_ = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, growth());
+        stable_ = std::min(share * bound_.limit({spheres, bonds, contacts, walls, clusters}, growth()), stable_step_of_bodies());
         return;
     }
     if (!numerics_.refuse_unstable) {
         return; // the step stays as it is
     }
-    const double lowest = share * bound_.limit({spheres, bonds, contacts, walls, clusters}, growth(), dt_ / share);
+    const double bodies = stable_step_of_bodies();
+    const double lowest = std::min(share * bound_.limit({spheres, bonds, contacts, walls, clusters}, growth(), dt_ / share), bodies);
     if (lowest >= dt_) {
         return;
     }
@@ -148,7 +158,7 @@ void Model::keep_stable(bool first) {
         const Easing eased = ease_step(spheres, bonds, materials, weight_, contacts, walls, clusters, skin_, wanted, left, bound_);
         scaling_.added_later += eased.added / whole;
         ledger_.background += eased.energy;
-        stable_ = share * eased.dt;
+        stable_ = std::min(share * eased.dt, bodies);
     }
     dt_ = std::min(dt_, numerics_.safety * stable_);
 }
@@ -170,6 +180,10 @@ void Model::block_forces(std::size_t k, const BondView& view, const ContactView&
     }
     for (auto& surface : walls.surfaces) {
         out.walls.push_back(surface_forces(spheres, surface, k, block, elapsed, dt_, loads));
+    }
+    out.bodies.clear();
+    for (auto& body : walls.bodies) {
+        out.bodies.push_back(deformable_forces(spheres, body, k, block, elapsed, dt_, loads));
     }
     out.pressure = 0.0;
     for (auto& pressure : pressures) {
@@ -206,6 +220,13 @@ void Model::forces(double elapsed, bool measure) {
     if (bonds.dilatation.active()) {
         average();
     }
+    for (auto& body : walls.bodies) {
+        const double before = body.solid.plastic();
+        body.solid.forces(*team_);
+        ledger_.plastic += body.solid.plastic() - before;
+        body.skin.follow(body.solid.position, body.solid.velocity, *team_);
+        body.sums = {};
+    }
     const BondView view = bonds.view();
     const ContactView touching = contacts.view();
     team_->run(loads.blocks().size(), [&](std::size_t k) { block_forces(k, view, touching, elapsed, keep); });
@@ -222,9 +243,19 @@ void Model::forces(double elapsed, bool measure) {
         for (std::size_t p = 0; p < at_walls.size(); ++p) {
             at_walls[p].add(sums.walls[p]);
         }
+        for (std::size_t p = 0; p < walls.bodies.size(); ++p) {
+            walls.bodies[p].sums.add(sums.bodies[p]);
+        }
         failures_.insert(failures_.end(), sums.failures.begin(), sums.failures.end());
     }
     broken_ += failures_.size();
+    for (auto& body : walls.bodies) {
+        collect_node_loads(body);
+        body.crossings += body.sums.crossed;
+        ledger_.friction += body.sums.friction;
+        ledger_.dashpots += body.sums.dashpot;
+        ledger_.coupling += steps_ > 0 ? body.sums.made : 0.0; // what presses from the start is counted there
+    }
     for (const auto& sums : at_walls) {
         ledger_.friction += sums.friction;
         ledger_.dashpots += sums.dashpot;
@@ -252,7 +283,7 @@ void Model::forces(double elapsed, bool measure) {
         fail_by_averaged_stress();
     }
     if (measure) {
-        ledger_.elastic = std::accumulate(bonds.stored.begin(), bonds.stored.end(), stored) + dilatation_energy(bonds);
+        ledger_.elastic = std::accumulate(bonds.stored.begin(), bonds.stored.end(), stored) + dilatation_energy(bonds) + energy_of_bodies();
     }
 }
 
@@ -290,6 +321,45 @@ double Model::body_work() const {
     return sum;
 }
 
+double Model::stable_step_of_bodies() const {
+    double lowest = 1e300;
+    for (const auto& body : walls.bodies) {
+        lowest = std::min(lowest, proveta::stable_step(body, spheres, growth(), skin_));
+    }
+    return lowest;
+}
+
+double Model::energy_of_bodies() const {
+    double sum = 0.0;
+    for (const auto& body : walls.bodies) {
+        sum += body.solid.stored() + body.sums.stored;
+    }
+    return sum;
+}
+
+// Moves the deformable bodies and returns the highest speed of a node.
+double Model::move_bodies(const std::vector<double>& speeds, bool measure) {
+    std::vector<Vec3> platens;
+    for (std::size_t p = 0; p < walls.platens.size() && p < speeds.size(); ++p) {
+        platens.emplace_back(speeds[p] * walls.platens[p].face.axis);
+    }
+    double fastest = 0.0;
+    bodies_kinetic_ = 0.0;
+    for (auto& body : walls.bodies) {
+        const SolidSums sums = body.solid.move(*team_, dt_, steps_ == 0, numerics_.gravity, platens);
+        ledger_.platens += sums.held;
+        ledger_.pressure += sums.pressure;
+        ledger_.dashpots += sums.rayleigh;
+        bodies_weighed_ += sums.body;
+        bodies_kinetic_ += sums.kinetic;
+        fastest = std::isfinite(sums.fastest) ? std::max(fastest, sums.fastest) : sums.fastest;
+    }
+    if (measure && !numerics_.gravity.isZero()) {
+        ledger_.body = body_work() + bodies_weighed_;
+    }
+    return fastest;
+}
+
 // Moves spheres, then clusters, part by part.
 MotionSums Model::move(bool measure) {
     const bool first = steps_ == 0;
@@ -322,18 +392,20 @@ MotionSums Model::move(bool measure) {
 
 void Model::motion(const std::vector<double>& speeds, bool measure) {
     const bool first = steps_ == 0;
-    if (measure && !numerics_.gravity.isZero()) {
-        ledger_.body = body_work();
-    }
+    const double of_bodies = move_bodies(speeds, measure);
     const MotionSums sums = move(measure || first);
     if (first) {
-        ledger_.initial = sums.kinetic + ledger_.elastic;
+        ledger_.initial = sums.kinetic + bodies_kinetic_ + ledger_.elastic;
     }
     double fastest = std::sqrt(sums.fastest);
     travel_.went(fastest * dt_);
     for (auto& track : tracks_) {
         track.spheres.went(fastest * dt_);
     }
+    for (auto& track : body_tracks_) {
+        track.went(fastest * dt_);
+    }
+    fastest = std::isfinite(of_bodies) ? std::max(fastest, of_bodies) : of_bodies;
     for (std::size_t p = 0; p < walls.platens.size(); ++p) {
         walls.platens[p].move(speeds[p], dt_);
         fastest = std::max(fastest, std::fabs(speeds[p]));
@@ -346,10 +418,13 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
     fastest_ = fastest;
     ledger_.background += sums.damping_work;
     if (measure) {
-        ledger_.kinetic = sums.kinetic;
+        ledger_.kinetic = sums.kinetic + bodies_kinetic_;
         double forces = 0.0;
         for (std::size_t b = 0; b < bonds.size(); ++b) {
             forces += std::hypot(bonds.normal[b], bonds.shear[b]);
+        }
+        for (std::size_t k = 0; k < contacts.size() && bonds.size() == 0; ++k) { // of loose matter
+            forces += contacts.force.at(k).norm();
         }
         measures_.unbalanced_ratio = forces > 0.0 ? sums.unbalanced / forces : 0.0;
         check();
@@ -381,6 +456,13 @@ std::uint64_t Model::state_hash() const {
         hash.mix(f->x);
         hash.mix(f->y);
         hash.mix(f->z);
+    }
+    for (const auto& body : walls.bodies) {
+        for (const auto* field : {&body.solid.position, &body.solid.velocity}) {
+            for (const Vec3& v : *field) {
+                hash.mix(std::vector<double>(v.begin(), v.end()));
+            }
+        }
     }
     for (const auto* a : {&bonds.plastic, &bonds.damage_n, &bonds.damage_t, &bonds.damage_work}) {
         hash.mix(*a);

@@ -1,4 +1,4 @@
-// The calculation itself: spheres, clusters, bonds, contacts and walls, stepped through time.
+// The calculation itself: spheres, clusters, bonds, contacts, walls and deformable bodies, stepped through time.
 #pragma once
 
 #include <cstdint>
@@ -125,7 +125,8 @@ class Model {
         BondDissipation bonds;
         ContactEnergies contacts;
         std::vector<WallSums> walls; // platens, then surfaces
-        double pressure = 0.0;       // work, J
+        std::vector<SkinSums> bodies;
+        double pressure = 0.0; // work, J
         std::vector<BondFailure> failures;
     };
 
@@ -137,6 +138,9 @@ class Model {
     void block_forces(std::size_t block, const BondView& view, const ContactView& touching, double elapsed, bool measure);
     void fail_by_averaged_stress();
     void motion(const std::vector<double>& speeds, bool measure);
+    double move_bodies(const std::vector<double>& speeds, bool measure);
+    [[nodiscard]] double stable_step_of_bodies() const;
+    [[nodiscard]] double energy_of_bodies() const;
     MotionSums move(bool measure);
     [[nodiscard]] double body_work() const;
     [[nodiscard]] double growth() const { return numerics_.overlap_growth.value_or(skin_); }
@@ -157,6 +161,9 @@ class Model {
         double way = 0.0;
     };
     std::vector<SurfaceTrack> tracks_;
+    std::vector<Travel> body_tracks_; // of the spheres, since a body listed them
+    double bodies_kinetic_ = 0.0;     // at the last forces, J
+    double bodies_weighed_ = 0.0;     // work of gravity on them, J
     std::vector<double> platens_at_;
     double dt_ = 0.0;
     double first_dt_ = 0.0;
@@ -233,11 +240,18 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit(name + "travel", tracks_[p].spheres.bound);
         visit(name + "way", tracks_[p].way);
     }
+    for (std::size_t p = 0; p < walls.bodies.size(); ++p) {
+        const std::string name = "body_" + std::to_string(p) + "_";
+        walls.bodies[p].visit_state(name, visit);
+        field(name + "searched_at", body_tracks_[p].from);
+        visit(name + "travel", body_tracks_[p].bound);
+    }
     for (std::size_t p = 0; p < pressures.size(); ++p) {
         visit("pressure_" + std::to_string(p), pressures[p].value);
         field("pressure_" + std::to_string(p) + "_force", pressures[p].force);
     }
     visit("body_gone", body_gone_);
+    visit("bodies_weighed", bodies_weighed_);
     visit("travel", travel_.bound);
     visit("dt", dt_);
     visit("first_dt", first_dt_);
@@ -250,6 +264,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
                                {"pressure", &ledger_.pressure},
                                {"body", &ledger_.body},
                                {"initial", &ledger_.initial},
+                               {"coupling", &ledger_.coupling},
                                {"elastic", &ledger_.elastic},
                                {"kinetic", &ledger_.kinetic},
                                {"damage", &ledger_.damage},

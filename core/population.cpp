@@ -92,6 +92,9 @@ void Model::repopulate(Spheres next, Clusters bodies, const std::vector<std::int
     for (auto& surface : walls.surfaces) {
         lost += surface.renumber(spheres, now, next.size());
     }
+    for (auto& body : walls.bodies) {
+        lost += body.renumber(now, next.size());
+    }
     spheres = std::move(next);
     clusters = std::move(bodies);
     if (steps_ > 0) { // else the first step looks for itself

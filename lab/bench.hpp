@@ -13,7 +13,8 @@ struct Bench : NetworkFacts {
     Specimen specimen;
     SpecimenStatistics statistics;
     Partition partition;
-    double wave_speed = 0.0; ///< sqrt(a E / rho) of the deck's material, m/s
+    double wave_speed = 0.0; ///< sqrt(a E / rho) of the deck's material, of loose matter that of its pack, m/s
+    double grain = 0.0;      ///< mean diameter of a sphere, or of the sphere of a stone's volume, m
     std::uint64_t specimen_hash = 0;
     Press press; ///< its platens and pressures are the model's
     std::unique_ptr<Model> model;

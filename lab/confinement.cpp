@@ -40,7 +40,7 @@ void check_confinement(const Confinement& c, const Deck& deck, input::Problems& 
         return;
     }
     const Card& card = deck.material.values;
-    const double compliance = (1.0 - 2.0 * card.poisson_ratio) / card.young_modulus;
+    const double compliance = (1.0 - 2.0 * card.poisson_ratio) / card.young_modulus; // of a solid one
     const double speed =
         0.5 * std::numbers::pi * c.pressure / c.ramp.number * compliance * deck.specimen.height; // steepest point of the ramp
     if (speed > c.speed_limit) {

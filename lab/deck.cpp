@@ -75,9 +75,17 @@ void declare(input::Visitor& v, Deck& d) {
     v.choice("test", d.test, test_choices(), "the laboratory test");
     v.text("title", d.title, "title of the report");
     v.section("specimen", d.specimen, "the specimen: made by a recipe, or taken from a file");
-    v.section("bonding", d.bonding, "which spheres are bonded");
+    const bool bonded = !d.protocol->granular();
+    if (bonded) {
+        v.section("bonding", d.bonding, "which spheres are bonded");
+    }
     v.section("material", d.material, "the material: a card and what to change in it");
-    v.list("regions", d.regions, "boxes of the specimen with another material or cohesive group; later ones win");
+    if (bonded) {
+        v.list("regions", d.regions, "boxes of the specimen with another material or cohesive group; later ones win");
+    } else {
+        v.refused("bonding", "a loose specimen has no bonds");
+        v.refused("regions", "a loose specimen is of one material");
+    }
     v.section("loading", *d.protocol, "the loading, as the test has it");
     v.section("numerics", d.numerics, "how the calculation is carried out");
     v.section("output", d.output, "what is written");
@@ -99,6 +107,7 @@ Deck read_deck(const Json& given, const std::string& file) {
         deck.protocol = make_protocol(test_names().front()); // to read the rest; the name itself is complained about below
     }
     deck.protocol->suggest(deck.specimen);
+    deck.material.card = deck.protocol->card();
     // The cards come first: the deck's other keys override them.
     if (json.is_object()) {
         preload(json.contains("material") ? json["material"] : Json::object(), deck.material, deck.folder, file, "/material", problems);
@@ -197,6 +206,7 @@ Json deck_schema() {
         deck.test = name;
         deck.protocol = make_protocol(name);
         deck.protocol->suggest(deck.specimen);
+        deck.material.card = deck.protocol->card();
         input::Problems ignored;
         preload(Json::object(), deck.material, "", "", "", ignored);
         input::SchemaWriter writer;

@@ -113,6 +113,30 @@ std::vector<std::vector<Vec3>> outline(const Platen& p, const Shape& shape) {
 
 } // namespace
 
+report::Geometry body_fields(const Model& model) {
+    report::Geometry g;
+    std::vector<double> moved;
+    std::vector<double> velocity;
+    for (const auto& body : model.walls.bodies) {
+        const auto first = static_cast<std::int64_t>(g.points.size());
+        const Solid& solid = body.solid;
+        for (std::size_t k = 0; k < solid.nodes(); ++k) {
+            const Vec3 u = solid.position[k] - solid.mesh().node[k];
+            g.points.push_back(solid.position[k]);
+            moved.insert(moved.end(), u.begin(), u.end());
+            velocity.insert(velocity.end(), solid.velocity[k].begin(), solid.velocity[k].end());
+        }
+        for (const auto& face : body.skin.faces()) {
+            g.cells.emplace_back();
+            for (std::size_t c = 0; c < (face.quadrilateral ? 4 : 3); ++c) {
+                g.cells.back().push_back(first + face.node[c]);
+            }
+        }
+    }
+    g.point_arrays = {{"displacement", 3, moved}, {"velocity", 3, velocity}};
+    return g;
+}
+
 report::Geometry platen_fields(const Bench& bench) {
     report::Geometry g;
     std::vector<double> thrust;
@@ -173,7 +197,70 @@ report::PictureLine stroke(const Model& m, const Plane& plane, std::size_t b) {
     return {x - dx, z - dz, x + dx, z + dz, m.bonds.mode[b], parted};
 }
 
+// Where a skin goes through the plane.
+std::vector<report::PictureLine> cut(const Skin& skin, const Plane& plane) {
+    std::vector<report::PictureLine> out;
+    for (std::uint32_t t = 0; t < skin.triangles(); ++t) {
+        const auto v = skin.geometry().corners(t);
+        std::vector<Vec3> through;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& a = v[k];
+            const Vec3& b = v[(k + 1) % 3];
+            const double da = a[plane.out] - plane.middle;
+            const double db = b[plane.out] - plane.middle;
+            if ((da < 0.0) != (db < 0.0)) {
+                through.emplace_back(a + (b - a) * (da / (da - db)));
+            }
+        }
+        if (through.size() == 2) {
+            out.push_back({through[0][plane.right], through[0][plane.up] + plane.raise, through[1][plane.right],
+                           through[1][plane.up] + plane.raise, 0, 0.6});
+        }
+    }
+    return out;
+}
+
 } // namespace
+
+report::Picture membrane_view(const Bench& bench, const std::string& title) {
+    const Solid& solid = bench.model->walls.bodies.front().solid;
+    const auto& start = solid.mesh().node;
+    const auto outwards = [&](std::uint32_t k) {
+        return std::hypot(solid.position[k].x(), solid.position[k].y()) - std::hypot(start[k].x(), start[k].y());
+    };
+    struct Seen {
+        double depth, moved;
+        report::PictureFacet facet;
+    };
+    std::vector<Seen> seen;
+    std::vector<double> moves;
+    const Vec3 light = Vec3(-0.6, -0.7, 0.4).normalized();
+    for (const auto& t : solid.mesh().membranes) {
+        const Vec3 a = solid.position[t[0]];
+        const Vec3 b = solid.position[t[1]];
+        const Vec3 c = solid.position[t[2]];
+        const Vec3 normal = (b - a).cross(c - a).normalized();
+        if (normal.y() < 0.0) { // it is looked at along y
+            const double moved = (outwards(t[0]) + outwards(t[1]) + outwards(t[2])) / 3.0;
+            seen.push_back({(a.y() + b.y() + c.y()) / 3.0,
+                            moved,
+                            {{{a.x(), a.z()}, {b.x(), b.z()}, {c.x(), c.z()}}, 0.0, 0.5 * (1.0 + normal.dot(light))}});
+            moves.push_back(moved);
+        }
+    }
+    std::stable_sort(seen.begin(), seen.end(), [](const Seen& x, const Seen& y) { return x.depth > y.depth; });
+    const double farthest = std::max(quantile(moves, 0.98), 0.0);
+    report::Picture p;
+    p.title = title;
+    p.width = bench.specimen.shape.diameter + 2.0 * farthest;
+    p.height = bench.specimen.shape.height;
+    for (auto& s : seen) {
+        s.facet.value = farthest > 0.0 ? s.moved / farthest : 0.0;
+        p.facets.push_back(std::move(s.facet));
+    }
+    p.caption = fmt::format("The membrane from the side. Red: outwards, up to {:.3g} mm.", 1e3 * farthest);
+    return p;
+}
 
 report::Picture slice(const Bench& bench, const std::string& title) {
     const Model& m = *bench.model;
@@ -193,6 +280,7 @@ report::Picture slice(const Bench& bench, const std::string& title) {
             p.dots.push_back({at[plane.right], at[plane.up] + plane.raise, m.spheres.radius[k], sideways.back()});
         }
     }
+    std::vector<report::PictureLine> skin_lines;
     std::vector<double> parted;
     for (std::size_t b = 0; b < m.bonds.size(); ++b) {
         const auto out = [&](std::int32_t k) { return m.spheres.start.at(static_cast<std::size_t>(k))[plane.out]; };
@@ -200,6 +288,13 @@ report::Picture slice(const Bench& bench, const std::string& title) {
             p.lines.push_back(stroke(m, plane, b));
             parted.push_back(p.lines.back().weight);
         }
+    }
+    for (const auto& body : m.walls.bodies) {
+        const auto lines = cut(body.skin, plane);
+        for (const auto& line : lines) {
+            p.width = std::max({p.width, 2.0 * std::fabs(line.x0), 2.0 * std::fabs(line.x1)});
+        }
+        skin_lines.insert(skin_lines.end(), lines.begin(), lines.end());
     }
     const double farthest = quantile(sideways, 0.98);
     const double widest = quantile(parted, 0.98);
@@ -219,6 +314,10 @@ report::Picture slice(const Bench& bench, const std::string& title) {
         p.caption += fmt::format(
             " Strokes: {} failed bonds, red in tension, amber in shear, the bolder the wider they have opened (up to {:.2g} mm).",
             p.lines.size(), 1e3 * widest);
+    }
+    if (!skin_lines.empty()) {
+        p.lines.insert(p.lines.end(), skin_lines.begin(), skin_lines.end());
+        p.caption += " Dark line: the membrane.";
     }
     return p;
 }

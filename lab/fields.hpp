@@ -15,10 +15,15 @@ namespace proveta {
 report::Geometry sphere_fields(const Bench& bench);
 /// Bonds as lines with mode (0 intact, 1 tension, 2 shear), damage, failure criterion state, normal (compression positive) and shear force.
 report::Geometry bond_fields(const Bench& bench);
+/// The deformable bodies' skins as polygons, with displacement and velocity of the nodes and, of membranes, the largest true stress.
+report::Geometry body_fields(const Model& model);
 /// The platens as polygons.
 report::Geometry platen_fields(const Bench& bench);
 
 /// A vertical slice of one sphere diameter through the axis: spheres shaded by how far they moved sideways, failed bonds as strokes.
 report::Picture slice(const Bench& bench, const std::string& title);
+
+/// The membrane seen from its side: shaded by how far it has moved outwards, its bulges and dents lit from the left. Only with a membrane.
+report::Picture membrane_view(const Bench& bench, const std::string& title);
 
 } // namespace proveta

@@ -44,6 +44,9 @@ std::vector<int> fragments(const Model& model) {
 }
 
 std::vector<std::uint8_t> detached_spheres(const Model& model) {
+    if (model.bonds.size() == 0) {
+        return std::vector<std::uint8_t>(model.spheres.size(), 0); // loose matter: nothing to come off
+    }
     const auto number = fragments(model);
     std::vector<std::size_t> size(number.empty() ? 0 : static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1, 0);
     for (const int f : number) {

@@ -5,6 +5,7 @@
 
 #include "core/geometry/linear_field.hpp"
 #include "lab/fragments.hpp"
+#include "lab/membrane.hpp"
 
 namespace proveta {
 
@@ -13,6 +14,11 @@ Instruments::Instruments(const Bench& bench) : gauges_(bench.specimen.shape, ben
     const Spheres& s = bench.model->spheres;
     height_ = shape.height;
     off_ = detached_spheres(*bench.model);
+    area_now_ = bench.press.area_now;
+    if (!bench.model->walls.bodies.empty()) {
+        volume_ = enclosed_volume(bench.model->walls.bodies.front());
+        girth_radius_ = middle_radius(bench.model->walls.bodies.front());
+    }
     inner_ = bench.press.inner;
     middle_ = bench.press.bands ? shape.inner(1.0, 0.6) : inner_;
     for (std::size_t k = 0; k < s.size(); ++k) {
@@ -20,6 +26,13 @@ Instruments::Instruments(const Bench& bench) : gauges_(bench.specimen.shape, ben
             inside_.push_back(k);
         }
     }
+}
+
+double Instruments::area(const Model& m, const Press& press) {
+    if (!press.area_now) {
+        return press.area;
+    }
+    return enclosed_volume(m.walls.bodies.front()) / (m.walls.platens[1].position - m.walls.platens[0].position);
 }
 
 double Instruments::girth_strain(const Model& m) const { return gauges_.girth_strain(m.spheres.position, off_); }
@@ -40,6 +53,16 @@ Mat3 Instruments::mean_strain(const Model& m) const {
     return -0.5 * (slopes + slopes.transpose());
 }
 
+namespace {
+
+// Of the body that a sphere is, or belongs to: a branch of the stress goes from body to body.
+Vec3 centre_of(const Model& m, std::size_t sphere) {
+    const auto body = m.clusters.of(sphere);
+    return body < 0 ? m.spheres.position.at(sphere) : m.clusters.position[static_cast<std::size_t>(body)];
+}
+
+} // namespace
+
 Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) const {
     Mat3 sum = Mat3::Zero();
     const Bonds& b = model.bonds;
@@ -47,8 +70,8 @@ Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) c
         if (off_[i] != 0 || off_[j] != 0) {
             return;
         }
-        const Vec3 at_i = model.spheres.position.at(i);
-        const Vec3 at_j = model.spheres.position.at(j);
+        const Vec3 at_i = centre_of(model, i);
+        const Vec3 at_j = centre_of(model, j);
         const double inside = region.fraction_inside(at_i, at_j);
         if (inside > 0.0) {
             sum -= inside * force * (at_j - at_i).transpose(); // force on i: compression pushes it against the branch
@@ -68,7 +91,8 @@ Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) c
 report::Table Instruments::empty_curve() const {
     report::Table t;
     t.notes = {"Compression is positive in stress and strain; lateral strain is positive when the specimen gets thinner.",
-               "Stress is force over the nominal area before the test."};
+               area_now_ ? "Stress is force over the mean section at the time: volume inside the membrane over the height."
+                         : "Stress is force over the nominal area before the test."};
     t.columns = {
         {"time", "s", "time since the start of loading"},
         {"stage", "", "number of the stage, from 0"},
@@ -79,7 +103,9 @@ report::Table Instruments::empty_curve() const {
         {"lateral_stress", "Pa", "confining pressure, or mean of what the side presses on a ring"},
         {"gauge_axial_strain", "", "shortening of the middle gauge length along the loading"},
         {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin, or of the gauge across the loading"},
-        {"volumetric_strain", "", "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
+        {"volumetric_strain", "",
+         area_now_ ? "loss of the volume inside the membrane over that at the start"
+                   : "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
         {"force_bottom", "N", "force on the first (lower) platen"},
         {"force_top", "N", "force on the second (upper) platen"},
         {"inner_strain_xx", "", "mean strain of the inner region, from the displacements of its spheres"},
@@ -98,6 +124,14 @@ report::Table Instruments::empty_curve() const {
         {"broken_in_shear", "", "of these in shear"},
         {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"},
         {"rate", "m/s", "closing speed of the platens, negative when they part"}};
+    if (volume_ > 0.0) {
+        t.columns.push_back({"membrane_volumetric_strain", "", "loss of the volume inside the membrane over that at the start"});
+        t.columns.push_back(
+            {"membrane_girth_strain", "", "shortening of the membrane's girth at mid-height, positive when it gets thinner"});
+        t.columns.push_back(
+            {"membrane_force", "N", "that the membrane itself bears along the axis, compression positive; not in axial_stress"});
+        t.columns.push_back({"membrane_crossings", "", "contacts so far whose sphere's centre lay beyond the membrane: 0 unless it leaks"});
+    }
     return t;
 }
 
@@ -108,7 +142,8 @@ report::Table Instruments::empty_energy() const {
                  {"axial_strain", "", "closing of the platens over their distance at the start"},
                  {"platens", "J", "work of the platens on the specimen"},
                  {"pressure", "J", "work of the pressure on its side"},
-                 {"elastic", "J", "stored in bonds and contacts"},
+                 {"coupling", "J", "made, or taken out where negative, by sharing contact forces out over a membrane"},
+                 {"elastic", "J", "stored in bonds, contacts and membrane"},
                  {"kinetic", "J", "of translation and rotation"},
                  {"damage", "J", "dissipated by damage and failure of bonds"},
                  {"plastic", "J", "dissipated by plastic shortening of bonds"},
@@ -134,14 +169,16 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
     const Vec3 across = Vec3::UnitZ().cross(along);
     const double gauge = press.bands ? gauges_.axial_strain(m.spheres.position, off_) : along.dot(stretched * along);
     const double girth = press.bands ? girth_strain(m) : across.dot(stretched * across);
-    const double volume = press.bands ? gauge + (m.spheres.planar ? 1.0 : 2.0) * girth : stretched.trace();
+    const bool wrapped = !m.walls.bodies.empty();
+    const double squeezed = wrapped ? 1.0 - enclosed_volume(m.walls.bodies.front()) / volume_ : 0.0;
+    const double volume = press.area_now ? squeezed : press.bands ? gauge + (m.spheres.planar ? 1.0 : 2.0) * girth : stretched.trace();
     double held = 0.0;
     for (std::size_t p = 2; p < m.walls.platens.size(); ++p) {
         held += m.walls.platens[p].thrust;
     }
     const double lateral = press.side_area > 0.0 ? held / press.side_area : mark.pressure;
     const Mat3 inner = mean_stress(m, inner_);
-    const double stress = 0.5 * (bottom + top) / press.area;
+    const double stress = 0.5 * (bottom + top) / area(m, press);
     curve.rows.push_back({m.time(),
                           mark.stage,
                           mark.phase,
@@ -169,9 +206,16 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
                           static_cast<double>(broken_shear_),
                           m.measures().unbalanced_ratio,
                           m.walls.platens[0].velocity - m.walls.platens[1].velocity});
+    if (wrapped) {
+        const Deformable& membrane = m.walls.bodies.front();
+        for (const double value :
+             {squeezed, 1.0 - middle_radius(membrane) / girth_radius_, axial_force(membrane), static_cast<double>(membrane.crossings)}) {
+            curve.rows.back().push_back(value);
+        }
+    }
     const Ledger& l = m.ledger();
-    energy.rows.push_back({m.time(), strain, l.platens, l.pressure, l.elastic, l.kinetic, l.damage, l.plastic, l.friction, l.dashpots,
-                           l.background, l.residual()});
+    energy.rows.push_back({m.time(), strain, l.platens, l.pressure, l.coupling, l.elastic, l.kinetic, l.damage, l.plastic, l.friction,
+                           l.dashpots, l.background, l.residual()});
 }
 
 } // namespace proveta

@@ -41,8 +41,14 @@ class Instruments {
     /// Love-Weber stress averaged over an inner region, Pa: (1/V) sum of force times branch, each branch with its fraction inside.
     [[nodiscard]] Mat3 mean_stress(const Model& model, const Shape::Region& region) const;
 
+    /// Area that stress is force over now, m2.
+    [[nodiscard]] static double area(const Model& model, const Press& press);
+
   private:
     double height_ = 0.0;
+    bool area_now_ = false;
+    double volume_ = 0.0;       // inside the membrane at the start, m3; 0: there is none
+    double girth_radius_ = 0.0; // of the membrane at mid-height at the start, m
     Gauges gauges_;
     Shape::Region inner_;
     Shape::Region middle_;            // the whole section over the middle of the height

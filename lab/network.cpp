@@ -47,6 +47,18 @@ std::uint64_t hash_of(const Specimen& specimen) {
          {&specimen.spheres.centre.x, &specimen.spheres.centre.y, &specimen.spheres.centre.z, &specimen.spheres.radius}) {
         hash.mix(*values);
     }
+    for (const auto& form : specimen.forms) {
+        for (const Vec3& centre : form.centre) {
+            hash.mix(std::vector<double>(centre.begin(), centre.end()));
+        }
+        hash.mix(form.radius);
+        hash.mix({form.volume, form.inertia.x(), form.inertia.y(), form.inertia.z()});
+    }
+    for (const auto& stone : specimen.stones) {
+        const auto& [form, size, position, attitude] = stone;
+        hash.mix(static_cast<std::uint64_t>(form));
+        hash.mix({size, position.x(), position.y(), position.z(), attitude.w(), attitude.x(), attitude.y(), attitude.z()});
+    }
     return hash.value();
 }
 

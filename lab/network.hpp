@@ -36,12 +36,13 @@ struct Network : NetworkFacts {
     std::vector<std::uint8_t> skin; ///< of the spheres
     Bonds bonds;
     std::vector<double> weight; ///< area weights of the spheres, for later contacts
+    Clusters clusters;          ///< stones, where the specimen is loose
 };
 
 /// Spheres in space-filling order, with materials and groups from the deck's regions.
 Spheres make_spheres(const Specimen& specimen, const Deck& deck, std::vector<Material>& materials);
 
-/// Hash of a specimen's spheres: equal if and only if the bits are.
+/// Hash of a specimen's spheres and stones: equal if and only if the bits are.
 std::uint64_t hash_of(const Specimen& specimen);
 
 /// Bonds the specimen as the deck says; each card whose elasticity is to be calibrated gets the factors with which the whole specimen,

@@ -48,15 +48,17 @@ report::Plot plot_of(const PlotSpec& spec, const TestData& data) {
 }
 
 // The test's own plots, then what every test shows.
-std::vector<report::Plot> plots(const Protocol& protocol, double sense, const TestData& data) {
+std::vector<report::Plot> plots(const Protocol& protocol, double sense, bool bonded, const TestData& data) {
     auto specs = protocol.plots();
-    specs.push_back(
-        {"Failed bonds.",
-         "axial strain [%]",
-         "failed bonds",
-         sense * 100.0,
-         1.0,
-         {{"axial_strain", "broken_in_tension", "in tension", "#c0392b"}, {"axial_strain", "broken_in_shear", "in shear", "#d68910"}}});
+    if (bonded) {
+        specs.push_back(
+            {"Failed bonds.",
+             "axial strain [%]",
+             "failed bonds",
+             sense * 100.0,
+             1.0,
+             {{"axial_strain", "broken_in_tension", "in tension", "#c0392b"}, {"axial_strain", "broken_in_shear", "in shear", "#d68910"}}});
+    }
     specs.push_back({"Where the work put in went.",
                      "axial strain [%]",
                      "energy [J]",
@@ -87,7 +89,42 @@ report::TextTable ledger_table(const report::Table& energy) {
     return t;
 }
 
+// What a membrane is, in a sentence.
+std::string membrane_text(const Deformable& m) {
+    const SolidMaterial& rubber = m.solid.material;
+    return fmt::format("{} triangles, {} nodes, {:.3g} mm of {} with E = {:.3g} MPa, nu = {:.3g}", m.solid.mesh().membranes.size(),
+                       m.solid.nodes(), 1e3 * m.solid.thickness,
+                       rubber.law == SolidLaw::kirchhoff ? "St. Venant-Kirchhoff rubber" : "Neo-Hookean rubber",
+                       1e-6 * rubber.young_modulus, rubber.poisson_ratio);
+}
+
+report::TextTable loose_table(const Deck& deck, const Bench& bench) {
+    const auto& s = bench.statistics;
+    const bool stones = !bench.specimen.stones.empty();
+    report::TextTable t{
+        "Specimen and material",
+        {{"Quantity", "Value"},
+         {"Shape", bench.specimen.shape.text()},
+         {stones ? "Stones" : "Spheres",
+          fmt::format("{}, mean size {:.2f} mm, relative deviation {:.1f} %", stones ? bench.specimen.stones.size() : s.spheres,
+                      1e3 * bench.grain, 100 * s.relative_deviation)},
+         {"Porosity before the test", fmt::format("{:.2f} %", 100 * s.porosity)},
+         {"Material", fmt::format("{}: {}", deck.material.values.name, deck.material.values.about)},
+         {"Source of the material", fmt::format("{} (status: {})", deck.material.values.source, deck.material.values.status)}}};
+    if (stones) {
+        t.rows.insert(t.rows.begin() + 3,
+                      {"Spheres", fmt::format("{} in the stones, of {} forms", bench.model->spheres.size(), bench.specimen.forms.size())});
+    }
+    for (const auto& body : bench.model->walls.bodies) {
+        t.rows.push_back({"Membrane", membrane_text(body)});
+    }
+    return t;
+}
+
 report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
+    if (bench.model->bonds.size() == 0) {
+        return loose_table(deck, bench);
+    }
     const auto& s = bench.statistics;
     report::TextTable t{
         "Specimen and material",
@@ -118,6 +155,9 @@ report::TextTable specimen_table(const Deck& deck, const Bench& bench) {
         t.rows.push_back({"Elasticity of " + calibration.name, text_of(calibration.result)});
     }
     t.rows.push_back({"Mass scaling", text_of(bench.model->mass_scaling())});
+    for (const auto& body : bench.model->walls.bodies) {
+        t.rows.push_back({"Membrane", membrane_text(body)});
+    }
     return t;
 }
 
@@ -186,11 +226,16 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     r.status = status;
     r.stopped_by = data.stopped_by;
     if (!data.curve.rows.empty()) {
-        r.results = deck.protocol->results({data.curve, data.energy, data.events, bench.specimen.shape, bench.press});
-        for (auto&& more : {rate_results(data.curve, bench.press.sense), acoustic_results(acoustic)}) {
+        r.results = deck.protocol->results(
+            {data.curve, data.energy, data.events, bench.specimen.shape, bench.press, bench.grain, bench.model->materials.front().density});
+        std::vector<std::vector<report::Scalar>> all{rate_results(data.curve, bench.press.sense)};
+        if (bench.model->bonds.size() > 0) {
+            all.push_back(acoustic_results(acoustic));
+        }
+        for (auto&& more : all) {
             r.results.insert(r.results.end(), more.begin(), more.end());
         }
-        r.plots = plots(*deck.protocol, bench.press.sense, data);
+        r.plots = plots(*deck.protocol, bench.press.sense, bench.model->bonds.size() > 0, data);
         if (!acoustic.empty()) {
             r.plots.push_back(acoustic_activity_plot(acoustic));
             r.plots.push_back(magnitude_plot(acoustic));
@@ -207,7 +252,8 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
             r.warnings.push_back(badge.name + ": " + badge.verdict + ".");
         }
     }
-    if (std::fabs(bench.partition.section - 1.0) > 0.015) {
+    const bool bonded = bench.model->bonds.size() > 0;
+    if (bonded && std::fabs(bench.partition.section - 1.0) > 0.015) {
         r.warnings.push_back(fmt::format("The bond areas make up {:.3f} of the section: stiffness and strength are off by as much "
                                          "(card's area rule: {}).",
                                          bench.partition.section, deck.material.values.area_rule));
@@ -221,6 +267,11 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
                             bench.dropped, 100.0 * bench.laguerre->unbonded_share));
         }
     }
+    for (const auto& body : bench.model->walls.bodies) {
+        if (body.crossings > 0) {
+            r.warnings.push_back(fmt::format("The membrane leaked: {} contacts of particles whose centre lay beyond it.", body.crossings));
+        }
+    }
     for (const auto& calibration : bench.calibrations) {
         if (!calibration.result.in_reach) {
             r.warnings.push_back(
@@ -229,7 +280,7 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
                             calibration.name, calibration.result.wanted_poisson_ratio, calibration.result.poisson_ratio));
         }
     }
-    if (bench.model->dt() < bench.model->first_dt()) {
+    if (bonded && bench.model->dt() < bench.model->first_dt()) { // contacts of loose matter stiffen as they are pressed
         r.warnings.push_back(
             fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when new contacts had made the specimen stiffer.",
                         bench.model->first_dt(), bench.model->dt()));
@@ -269,7 +320,9 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
     j["verdicts"] = verdicts_of(r.badges);
     j["warnings"] = r.warnings;
     const auto& s = bench.statistics;
-    j["specimen"] = {{"spheres", s.spheres},
+    j["specimen"] = {{"spheres", bench.model->spheres.size()},
+                     {"stones", bench.specimen.stones.size()},
+                     {"grain_m", bench.grain},
                      {"mean_radius_m", s.mean_radius},
                      {"relative_deviation", s.relative_deviation},
                      {"porosity", s.porosity},

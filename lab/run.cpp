@@ -41,6 +41,9 @@ class FieldSeries {
         one("spheres", sphere_fields(bench));
         one("bonds", bond_fields(bench));
         one("platens", platen_fields(bench));
+        if (!bench.model->walls.bodies.empty()) {
+            one("membrane", body_fields(*bench.model));
+        }
         ++count_;
         report::write_file(out_.file("series.pvd"), report::to_pvd(entries_));
     }

@@ -200,7 +200,7 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
                           }});
         const double rate = l.girth_rate.word.empty() ? pace * l.girth_rate.number : 0.0;
         stages.push_back({"loading by girth", Stage::Kind::loading, target.share,
-                          std::make_shared<GirthServo>(rate, 2.0 * elastic_guess(bench.model).poisson, target.pressure),
+                          std::make_shared<GirthServo>(rate, 2.0 * elastic_guess(bench).poisson, target.pressure),
                           [=](const BenchView& b) { return std::max(to_end(b), -b.girth_strain() / target.strain); }});
     } else {
         stages.push_back({"loading", Stage::Kind::loading, target.share, control, to_end});
@@ -220,7 +220,18 @@ double lowest_tensile_strain(const Bonds& bonds) {
     return lowest;
 }
 
-ElasticGuess elastic_guess(const Model& model) {
+ElasticGuess elastic_guess(const BenchView& bench) {
+    const Model& model = bench.model;
+    if (model.bonds.size() == 0) {
+        double mass = 0.0;
+        for (std::size_t k = 0; k < model.clusters.alone(model.spheres); ++k) {
+            mass += model.spheres.mass[k];
+        }
+        for (const double m : model.clusters.mass) {
+            mass += m;
+        }
+        return {mass / bench.shape.volume() * bench.wave_speed * bench.wave_speed, 0.2};
+    }
     // The affine bound of an isotropic network whose bond areas fill space; k = k_t / k_n.
     const Material& m = model.materials.front();
     const double k = bond_law(m).shear_ratio;
@@ -228,7 +239,7 @@ ElasticGuess elastic_guess(const Model& model) {
 }
 
 StressServo::Settings servo_settings(const BenchView& bench, double speed_limit) {
-    const ElasticGuess e = elastic_guess(bench.model);
+    const ElasticGuess e = elastic_guess(bench);
     return {(1.0 - 2.0 * e.poisson) / e.young, e.young, speed_limit};
 }
 

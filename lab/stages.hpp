@@ -87,10 +87,10 @@ Stage isotropic_stage(const BenchView& bench, double pressure, double ramp, doub
 Stage hold_stage(const BenchView& bench, double pressure, double speed_limit, double share);
 
 /// Axial strain per pressure all round, and axial stress per axial strain, that a servo reckons with: those of an elastic body of the
-/// material.
+/// material; of loose matter, what its wave speed tells.
 struct ElasticGuess {
     double young, poisson;
 };
-ElasticGuess elastic_guess(const Model& model);
+ElasticGuess elastic_guess(const BenchView& bench);
 
 } // namespace proveta

@@ -61,7 +61,7 @@ class Run {
   public:
     Run(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant)
         : deck_(deck), bench_(bench), hooks_(hooks), variant_(variant), model_(*bench.model),
-          instruments_(bench), view_{model_, bench.specimen.shape, bench.press, instruments_, bench.wave_speed, data_.curve} {
+          instruments_(bench), view_{model_, bench.specimen.shape, bench.press, instruments_, bench.wave_speed, data_.curve, bench.grain} {
         data_.curve = instruments_.empty_curve();
         data_.energy = instruments_.empty_energy();
     }
@@ -92,6 +92,9 @@ class Run {
         }
         watch_.add_to(data_.pictures);
         data_.pictures.push_back(slice(bench_, "At the end"));
+        if (!model_.walls.bodies.empty()) {
+            data_.pictures.push_back(membrane_view(bench_, "The membrane at the end"));
+        }
         return std::move(data_);
     }
 
@@ -122,6 +125,11 @@ class Run {
         speeds_[1] = -speeds_[0];
         for (auto& pressure : model_.pressures) {
             pressure.value = drive_.pressure;
+        }
+        for (auto& body : model_.walls.bodies) {
+            for (auto& pressure : body.solid.pressures) {
+                pressure.value = drive_.pressure;
+            }
         }
         model_.step(speeds_, measured);
         stage.control->stepped(view_, measured);
@@ -174,7 +182,7 @@ double BenchView::strain() const {
 }
 
 double BenchView::stress() const {
-    return press.sense * 0.5 * (model.walls.platens[0].load() + model.walls.platens[1].load()) / press.area;
+    return press.sense * 0.5 * (model.walls.platens[0].load() + model.walls.platens[1].load()) / Instruments::area(model, press);
 }
 
 double BenchView::girth_strain() const { return instruments.girth_strain(model); }

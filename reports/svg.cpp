@@ -118,6 +118,14 @@ std::string shade(double t) {
     return fmt::format("#{:02x}{:02x}{:02x}", mix(236, 30), mix(240, 78), mix(244, 121));
 }
 
+// Grey to red with the value, darker away from the light.
+std::string lit(double value, double light) {
+    value = std::clamp(value, 0.0, 1.0);
+    const double bright = 0.55 + 0.45 * std::clamp(light, 0.0, 1.0);
+    const auto mix = [&](double a, double b) { return static_cast<int>(std::lround(bright * (a + (b - a) * value))); };
+    return fmt::format("#{:02x}{:02x}{:02x}", mix(222, 196), mix(226, 64), mix(230, 48));
+}
+
 } // namespace
 
 std::string to_svg(const Plot& plot) {
@@ -211,6 +219,14 @@ std::string to_svg(const Picture& p) {
                                   "xmlns=\"http://www.w3.org/2000/svg\">\n",
                                   -scale * (0.5 * p.width + margin), -scale * (p.height + margin), scale * (p.width + 2 * margin),
                                   scale * (p.height + 2 * margin), escape(p.title + ". " + p.caption));
+    for (const auto& f : p.facets) {
+        std::string points;
+        for (const auto& [x, z] : f.corner) {
+            points += fmt::format("{:.2f},{:.2f} ", scale * x, -scale * z);
+        }
+        const std::string fill = lit(f.value, f.light);
+        out += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\".3\"/>\n", points, fill, fill);
+    }
     for (const auto& d : p.dots) {
         out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"#9aa5b1\" stroke-width=\".15\"/>\n",
                            scale * d.x, -scale * d.z, scale * d.radius, shade(d.value));

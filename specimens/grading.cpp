@@ -1,5 +1,7 @@
 #include "specimens/grading.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -39,6 +41,35 @@ double cut_quantile(double p, double m, double s, double a, double b) {
 }
 
 } // namespace
+
+void declare(input::Visitor& v, GradingPoint& p) {
+    v.number("diameter", p.diameter, input::Unit::length, input::above(0), "sieve opening");
+    v.number("passing", p.passing, input::Unit::none, input::between(0, 1), "share of the mass that is finer");
+}
+
+bool check_grading(const std::vector<GradingPoint>& curve, const std::string& source, const std::string& path, input::Problems& problems) {
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+        const bool first = k == 0;
+        const bool last = k + 1 == curve.size();
+        const auto& p = curve[k];
+        const bool ascends = first || (p.diameter > curve[k - 1].diameter && p.passing > curve[k - 1].passing);
+        if (!ascends || (first && p.passing != 0.0) || (last && p.passing != 1.0) || curve.size() < 2) {
+            problems.push_back({source, fmt::format("{}/{}", path, k), fmt::format("passing {:.4g} at {:.4g} m", p.passing, p.diameter),
+                                "at least two points, ascending, from passing 0 to passing 1", ""});
+            return false;
+        }
+    }
+    return true;
+}
+
+std::vector<SievePoint> sieve_curve(const std::vector<GradingPoint>& curve) {
+    std::vector<SievePoint> out;
+    out.reserve(curve.size());
+    for (const auto& p : curve) {
+        out.push_back({p.diameter, p.passing});
+    }
+    return out;
+}
 
 std::vector<double> normal_radii(std::size_t n, double deviation, double lowest, double highest, std::uint64_t seed) {
     if (deviation <= 0.0) {

@@ -2,15 +2,31 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "core/input/json.hpp"
+
 namespace proveta {
+
+/// A point of the grading curve in a recipe.
+struct GradingPoint {
+    double diameter = 0.0;
+    double passing = 0.0;
+};
+
+void declare(input::Visitor& v, GradingPoint& point);
+
+/// Whether a recipe's curve ascends from passing 0 to passing 1; if not, the first point that is wrong is told. path: of the list.
+bool check_grading(const std::vector<GradingPoint>& curve, const std::string& source, const std::string& path, input::Problems& problems);
 
 /// A point of a sieve curve: the share of the mass that is finer than the diameter.
 struct SievePoint {
     double diameter; ///< m
     double passing;  ///< 0 to 1
 };
+
+std::vector<SievePoint> sieve_curve(const std::vector<GradingPoint>& curve);
 
 /// n radii in random order that follow a normal distribution cut at lowest and highest (over the mean) and scaled so that the mean is
 /// 1 and the relative standard deviation is `deviation`. The radii are quantiles, one from each of n equal strata, so even small

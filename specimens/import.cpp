@@ -232,9 +232,11 @@ void export_csv(const Specimen& s, const std::string& file) {
     {
         std::ofstream out(partial);
         out << "x_m,y_m,z_m,r_m,group\n";
-        for (std::size_t k = 0; k < s.size(); ++k) {
-            const Vec3 p = s.spheres.centre.at(k);
-            out << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{}\n", p.x(), p.y(), p.z(), s.spheres.radius[k], s.group[k]);
+        const SpheresInSpace all = spheres_in_space(s);
+        for (std::size_t k = 0; k < all.spheres.radius.size(); ++k) {
+            const Vec3 p = all.spheres.centre.at(k);
+            out << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{}\n", p.x(), p.y(), p.z(), all.spheres.radius[k],
+                               s.stones.empty() ? s.group[k] : all.particle[k]);
         }
         if (!out.flush()) {
             throw std::runtime_error(file + ": cannot be written");

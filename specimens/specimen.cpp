@@ -17,13 +17,28 @@ using input::above;
 using input::between;
 using input::Unit;
 
-void declare(input::Visitor& v, GradingPoint& p) {
-    v.number("diameter", p.diameter, Unit::length, above(0), "sieve opening");
-    v.number("passing", p.passing, Unit::none, between(0, 1), "share of the mass that is finer");
+namespace {
+
+constexpr const char* of_file = "a stored specimen (.h5) to take instead of making one; the other keys are then not used";
+constexpr const char* of_seed = "number that the specimen's randomness starts from";
+
+// A cylinder full of loose particles.
+void declare_granular(input::Visitor& v, SpecimenRecipe& r) {
+    v.text("file", r.file, of_file);
+    v.number("diameter", r.diameter, Unit::length, between(1e-4, 100), "diameter of the cylinder");
+    v.number("height", r.height, Unit::length, between(1e-4, 100), "height to fill; the specimen's is what the particles come to, near it");
+    v.section("particles", r.particles, "the particles and how they are filled in");
+    v.integer("seed", r.seed, 0, INT64_MAX, of_seed);
 }
 
+} // namespace
+
 void declare(input::Visitor& v, SpecimenRecipe& r) {
-    v.text("file", r.file, "a stored specimen (.h5) to take instead of making one; the other keys are then not used");
+    if (r.granular()) {
+        declare_granular(v, r);
+        return;
+    }
+    v.text("file", r.file, of_file);
     v.choice("shape", r.shape,
              {{"cylinder", "diameter and height"},
               {"disc", "a short cylinder: diameter and height"},
@@ -46,12 +61,40 @@ void declare(input::Visitor& v, SpecimenRecipe& r) {
            "number of spheres");
     v.number("relaxation", r.relaxation, Unit::none, between(1e-4, 0.5),
              "net force over contact force at which the packing counts as relaxed");
-    v.integer("seed", r.seed, 0, INT64_MAX, "number that the packing's randomness starts from");
+    v.integer("seed", r.seed, 0, INT64_MAX, of_seed);
+}
+
+SpecimenRecipe granular_recipe() {
+    SpecimenRecipe r;
+    r.matter = "granular";
+    r.diameter = 0.300;
+    r.height = 0.600;
+    return r;
+}
+
+SpheresInSpace spheres_in_space(const Specimen& s) {
+    SpheresInSpace out;
+    out.spheres = s.spheres;
+    for (std::size_t k = 0; k < s.spheres.radius.size(); ++k) {
+        out.particle.push_back(static_cast<std::int32_t>(k));
+    }
+    for (std::size_t k = 0; k < s.stones.size(); ++k) {
+        const Stone& stone = s.stones[k];
+        const ClusterShape& form = s.forms[static_cast<std::size_t>(stone.form)];
+        for (std::size_t m = 0; m < form.radius.size(); ++m) {
+            out.spheres.centre.push_back(stone.position + stone.attitude * Vec3(stone.size * form.centre[m]));
+            out.spheres.radius.push_back(stone.size * form.radius[m]);
+            out.particle.push_back(static_cast<std::int32_t>(k));
+        }
+    }
+    return out;
 }
 
 Shape shape_of(const SpecimenRecipe& r) {
     Shape s;
-    s.kind = r.shape == "prism" ? ShapeKind::prism : (r.shape == "plate" ? ShapeKind::plate : ShapeKind::cylinder);
+    if (!r.granular()) {
+        s.kind = r.shape == "prism" ? ShapeKind::prism : (r.shape == "plate" ? ShapeKind::plate : ShapeKind::cylinder);
+    }
     s.diameter = r.diameter;
     s.width = r.width;
     s.depth = r.depth;
@@ -69,11 +112,7 @@ std::vector<double> radii_of(const SpecimenRecipe& r) {
     if (r.grading.empty()) {
         radii = normal_radii(n, r.radius_deviation, r.smallest_radius, r.largest_radius, seed);
     } else {
-        std::vector<SievePoint> curve;
-        for (const auto& p : r.grading) {
-            curve.push_back({p.diameter, p.passing});
-        }
-        radii = graded_radii(n, curve, seed);
+        radii = graded_radii(n, sieve_curve(r.grading), seed);
     }
     const bool planar = shape_of(r).planar();
     double volume = 0.0;
@@ -101,17 +140,12 @@ void check_recipe(const SpecimenRecipe& r, const std::string& source, const std:
     if (!r.file.empty()) {
         return;
     }
-    for (std::size_t k = 0; k < r.grading.size(); ++k) {
-        const bool first = k == 0;
-        const bool last = k + 1 == r.grading.size();
-        const auto& p = r.grading[k];
-        const bool ascends = first || (p.diameter > r.grading[k - 1].diameter && p.passing > r.grading[k - 1].passing);
-        if (!ascends || (first && p.passing != 0.0) || (last && p.passing != 1.0) || r.grading.size() < 2) {
-            problems.push_back({source, fmt::format("{}/grading/{}", path, k),
-                                fmt::format("passing {:.4g} at {:.4g} m", p.passing, p.diameter),
-                                "at least two points, ascending, from passing 0 to passing 1", ""});
-            return;
-        }
+    if (r.granular()) {
+        check_bed(r.particles, shape_of(r), source, path + "/particles", problems);
+        return;
+    }
+    if (!check_grading(r.grading, source, path + "/grading", problems)) {
+        return;
     }
     // A cheap look at the largest sphere before making any: n copies of the mean would do, but the bounds decide.
     const double volume = shape_of(r).volume() * (1.0 - porosity_of(r)) / static_cast<double>(r.spheres);
@@ -134,7 +168,31 @@ void check_recipe(const SpecimenRecipe& r, const std::string& source, const std:
     }
 }
 
+namespace {
+
+Specimen make_granular(const SpecimenRecipe& recipe, const std::function<void(double)>& progress) {
+    Specimen s;
+    s.shape = shape_of(recipe);
+    Filling filling = make_bed(recipe.particles, s.shape, static_cast<std::uint64_t>(recipe.seed), progress);
+    s.shape.height = filling.height;
+    s.spheres = std::move(filling.spheres);
+    s.group.assign(s.spheres.radius.size(), 0);
+    s.forms = std::move(filling.forms);
+    s.stones = std::move(filling.stones);
+    s.recipe = input::write(recipe);
+    const FillingReport& report = filling.report;
+    s.recipe["filling"] = {{"placed", report.placed}, {"taken_away", report.taken_away}, {"steps", report.steps},
+                           {"time", report.time},     {"pressure", report.pressure},     {"rms_speed", report.rms_speed},
+                           {"height", filling.height}};
+    return s;
+}
+
+} // namespace
+
 Specimen make_specimen(const SpecimenRecipe& recipe, const std::function<void(double)>& progress) {
+    if (recipe.granular()) {
+        return make_granular(recipe, progress);
+    }
     Specimen s;
     s.shape = shape_of(recipe);
     Relaxation relaxation;
@@ -149,16 +207,27 @@ Specimen make_specimen(const SpecimenRecipe& recipe, const std::function<void(do
 Specimen obtain_specimen(const SpecimenRecipe& recipe, const std::string& folder, const std::string& source,
                          const std::function<void(double)>& progress) {
     if (recipe.file.empty()) {
-        return make_specimen(recipe, progress);
+        try {
+            return make_specimen(recipe, progress);
+        } catch (const std::invalid_argument& e) {
+            throw input::InputError(
+                {{source, recipe.granular() ? "/specimen/particles" : "/specimen", e.what(), "a recipe that can be carried out", ""}});
+        }
     }
     const std::filesystem::path given(recipe.file);
     const auto file = given.is_absolute() ? given : std::filesystem::path(folder) / given;
+    Specimen s;
     try {
-        return load_specimen(file.string());
+        s = load_specimen(file.string());
     } catch (const std::runtime_error& e) {
         throw input::InputError({{source, "/specimen/file", fmt::format("\"{}\": {}", recipe.file, e.what()),
                                   "a specimen stored by this program (.h5)", "make one with: proveta specimen make or import"}});
     }
+    if (!recipe.granular() && !s.stones.empty()) {
+        throw input::InputError({{source, "/specimen/file", fmt::format("\"{}\": {} loose stones", recipe.file, s.stones.size()),
+                                  "a specimen of spheres, which this test bonds", "a test on granular matter takes stones"}});
+    }
+    return s;
 }
 
 } // namespace proveta

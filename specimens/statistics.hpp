@@ -9,14 +9,16 @@
 
 namespace proveta {
 
-/// Statistics of a packing. Lengths in m.
+/// Statistics of a packing. Lengths in m. Of stones the radius is that of the sphere of a stone's volume, neighbours are other stones, and
+/// at the surface it is their spheres that count.
 struct SpecimenStatistics {
-    std::size_t spheres = 0;
+    std::size_t spheres = 0; ///< those of stones too
+    std::size_t stones = 0;
     double mean_radius = 0.0;
     double relative_deviation = 0.0; ///< standard deviation of the radii over their mean
     double smallest_radius = 0.0;
     double largest_radius = 0.0;
-    double porosity = 0.0;        ///< overlaps counted twice
+    double porosity = 0.0;        ///< overlaps counted twice; of stones by their volumes
     double touching = 0.0;        ///< mean number of touching neighbours
     double largest_overlap = 0.0; ///< over the smaller radius of the pair
     double fabric_deviator = 0.0; ///< of the fabric tensor of touching pairs, sqrt(3/2 dev:dev), in a plane sqrt(2 dev:dev); 0: isotropic

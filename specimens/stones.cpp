@@ -5,7 +5,7 @@
 #include <numbers>
 #include <voro++/voro++.hh>
 
-#include "specimens/random.hpp"
+#include "specimens/cluster_shape.hpp"
 
 namespace proveta {
 
@@ -73,6 +73,39 @@ SurfaceMesh stone_surface(const StoneKind& kind, std::uint64_t seed) {
         v *= factor;
     }
     return mesh;
+}
+
+ClusterShape form_of(const SurfaceMesh& closed, int spheres) {
+    FillRule rule;
+    rule.spheres = spheres;
+    rule.cells = 32;
+    ClusterShape shape = fill_with_spheres(closed, rule);
+    const double factor = std::cbrt(shape.volume / mass_properties(shape.centre, shape.radius).volume);
+    for (auto& c : shape.centre) {
+        c *= factor;
+    }
+    for (double& r : shape.radius) {
+        r *= factor;
+    }
+    return scaled(shape, 1.0 / std::cbrt(6.0 * shape.volume / std::numbers::pi));
+}
+
+double reach_of(const ClusterShape& form) {
+    double reach = 0.0;
+    for (std::size_t s = 0; s < form.radius.size(); ++s) {
+        reach = std::max(reach, form.centre[s].norm() + form.radius[s]);
+    }
+    return reach;
+}
+
+// K. Shoemake, Graphics Gems III, 124, 1992.
+rotation::Quaternion any_attitude(Random& random) {
+    const double u = random.uniform();
+    const double a = 2.0 * std::numbers::pi * random.uniform();
+    const double b = 2.0 * std::numbers::pi * random.uniform();
+    const double p = std::sqrt(1.0 - u);
+    const double q = std::sqrt(u);
+    return {q * std::cos(b), p * std::sin(a), p * std::cos(a), q * std::sin(b)};
 }
 
 ClusterShape scaled(const ClusterShape& shape, double factor) {

@@ -86,8 +86,11 @@ FaceContact nearest_on_face(const SurfaceGeometry& surface, std::uint32_t face, 
 }
 
 void double_hierarchy(const SurfaceGeometry& surface, std::span<const std::uint32_t> faces, const Vec3& centre, double radius,
-                      std::vector<FaceContact>& found) {
+                      std::vector<FaceContact>& found, std::vector<SlaveFace>* slaves) {
     found.clear();
+    if (slaves != nullptr) {
+        slaves->clear();
+    }
     for (const auto face : faces) {
         if (!cuts(surface, face, centre, radius)) {
             continue;
@@ -98,6 +101,9 @@ void double_hierarchy(const SurfaceGeometry& surface, std::span<const std::uint3
         }
     }
     if (found.size() < 2) {
+        if (slaves != nullptr && !found.empty()) {
+            slaves->push_back({found.front().face, 0});
+        }
         return;
     }
     // Equal distances, of neighbours that share the point, in the order of the faces.
@@ -108,11 +114,14 @@ void double_hierarchy(const SurfaceGeometry& surface, std::span<const std::uint3
     std::size_t valid = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Vec3 new_one = centre - found[i].point;
-        const bool redundant =
-            std::any_of(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(valid), [&](const FaceContact& nearer) {
-                return new_one.dot(centre - nearer.point) >= nearer.square * (1.0 - coplanar) - rounding;
-            });
-        if (!redundant) {
+        const auto end = found.begin() + static_cast<std::ptrdiff_t>(valid);
+        const auto master = std::find_if(found.begin(), end, [&](const FaceContact& nearer) {
+            return new_one.dot(centre - nearer.point) >= nearer.square * (1.0 - coplanar) - rounding;
+        });
+        if (slaves != nullptr) {
+            slaves->push_back({found[i].face, static_cast<std::uint32_t>(master - found.begin())});
+        }
+        if (master == end) {
             found[valid++] = found[i];
         }
     }

@@ -58,9 +58,16 @@ FaceContact nearest_on_face(const SurfaceGeometry& surface, std::uint32_t face, 
 /// Relative tolerance of the distance hierarchy: neighbours that meet at less than 0.08 degrees count as one plane.
 constexpr double coplanar = 1e-6;
 
-/// Contacts of a sphere with some faces, nearest first. `found` is emptied before.
+/// A face that a sphere cuts, and which of its contacts it gave way to: the master of this slave (thesis, appendix B). A master is a slave
+/// of its own.
+struct SlaveFace {
+    std::uint32_t face;
+    std::uint32_t master; ///< position among the contacts
+};
+
+/// Contacts of a sphere with some faces, nearest first. `found` is emptied before; slaves, if they are wanted, too.
 void double_hierarchy(const SurfaceGeometry& surface, std::span<const std::uint32_t> faces, const Vec3& centre, double radius,
-                      std::vector<FaceContact>& found);
+                      std::vector<FaceContact>& found, std::vector<SlaveFace>* slaves = nullptr);
 
 /// Weights of a face's corners at a contact: Wachspress' (3.17) on a facet, which are (3.13) in a triangle and (3.14) in a parallelogram;
 /// linear on an edge (3.15). They are not negative, sum to 1, and the corners weighted by them give the point, so that a force shared out

@@ -118,94 +118,34 @@ void Surface::restore(const Flat& flat) {
     }
 }
 
-namespace {
-
-// What a block of spheres finds.
-struct Listed {
-    std::vector<std::int32_t> sphere;
-    std::vector<std::uint32_t> faces; // how many of each
-    std::vector<std::uint32_t> face;
-};
-
-void list_block(const Spheres& spheres, double skin, const Surface& surface, std::size_t begin, std::size_t end, Listed& out) {
-    const auto box = surface.tree.box(); // only spheres in the intersection of both domains look for faces
-    for (std::size_t s = begin; s < end && !box.isEmpty(); ++s) {
-        const Vec3 own = surface.to_own(spheres.position.at(s));
-        const double reach = spheres.radius[s] + skin;
-        if (box.squaredExteriorDistance(own) > reach * reach) {
-            continue;
-        }
-        const std::size_t before = out.face.size();
-        surface.tree.near(own, reach, out.face);
-        const auto kept = std::remove_if(out.face.begin() + static_cast<std::ptrdiff_t>(before), out.face.end(),
-                                         [&](std::uint32_t face) { return !cuts(surface.geometry, face, own, reach); });
-        out.face.erase(kept, out.face.end());
-        if (out.face.size() > before) {
-            out.sphere.push_back(static_cast<std::int32_t>(s));
-            out.faces.push_back(static_cast<std::uint32_t>(out.face.size() - before));
-        }
-    }
-}
-
-} // namespace
-
 void search_surface(const Spheres& spheres, const std::vector<Material>& materials, double skin, Surface& surface, Team* team) {
-    std::vector<Listed> found(blocks_of(spheres.size()));
-    const auto look = [&](std::size_t part) {
-        const std::size_t begin = part * spheres_per_block;
-        list_block(spheres, skin, surface, begin, std::min(spheres.size(), begin + spheres_per_block), found[part]);
-    };
     Team alone(1);
-    (team != nullptr ? *team : alone).run(found.size(), look);
-    surface.sphere.clear();
-    surface.near_first.assign(1, 0);
-    surface.near_face.clear();
-    for (const auto& block : found) {
-        surface.sphere.insert(surface.sphere.end(), block.sphere.begin(), block.sphere.end());
-        for (const auto n : block.faces) {
-            surface.near_first.push_back(surface.near_first.back() + n);
-        }
-        surface.near_face.insert(surface.near_face.end(), block.face.begin(), block.face.end());
-    }
+    list_near(
+        spheres, skin, surface.geometry, surface.tree, [&](const Vec3& p) { return surface.to_own(p); }, team != nullptr ? *team : alone,
+        surface);
     set_up_surface(spheres, materials, surface);
 }
 
-void set_up_surface(const Spheres& spheres, const std::vector<Material>& materials, Surface& surface) {
+std::vector<LooseContact> wall_contacts(const Spheres& spheres, const std::vector<Material>& materials, const Material& wall,
+                                        double friction, const std::vector<std::int32_t>& listed) {
     std::vector<LoosePair> pairs;
     pairs.reserve(materials.size());
     for (const auto& m : materials) {
-        pairs.push_back(wall_pair(m, surface.material, surface.friction));
+        pairs.push_back(wall_pair(m, wall, friction));
     }
-    surface.law.clear();
-    for (const auto id : surface.sphere) {
+    std::vector<LooseContact> out;
+    for (const auto id : listed) {
         const auto s = static_cast<std::size_t>(id);
-        surface.law.push_back(wall_contact(pairs[static_cast<std::size_t>(spheres.material[s])],
-                                           {spheres.radius[s], spheres.mass[s], spheres.inertia[s]}, spheres.section(s)));
+        out.push_back(wall_contact(pairs[static_cast<std::size_t>(spheres.material[s])],
+                                   {spheres.radius[s], spheres.mass[s], spheres.inertia[s]}, spheres.section(s)));
     }
+    return out;
+}
+
+void set_up_surface(const Spheres& spheres, const std::vector<Material>& materials, Surface& surface) {
+    surface.law = wall_contacts(spheres, materials, surface.material, surface.friction, surface.sphere);
     surface.touches.resize(blocks_of(spheres.size()));
 }
-
-namespace {
-
-// Takes the history of the old contact nearest to a point, and takes it away from the others that might want it.
-WallHistory inherit(std::vector<SurfaceTouch>& old, std::size_t begin, std::size_t end, const Vec3& point, double bound) {
-    std::size_t nearest = end;
-    double square = bound * bound;
-    for (std::size_t k = begin; k < end; ++k) {
-        const double d = (old[k].point - point).squaredNorm();
-        if (old[k].sphere >= 0 && d <= square) {
-            square = d;
-            nearest = k;
-        }
-    }
-    if (nearest == end) {
-        return {};
-    }
-    old[nearest].sphere = -1;
-    return old[nearest].history;
-}
-
-} // namespace
 
 WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t number, const SphereBlock& block, double elapsed, double dt,
                         Loads& loads) {
@@ -224,13 +164,7 @@ WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t nu
         const Vec3 centre = spheres.position.at(s);
         const Vec3 own = turn.transpose() * (centre - surface.origin);
         double_hierarchy(surface.geometry, surface.faces_near(k), own, radius, found);
-        while (begin < old.size() && old[begin].sphere < surface.sphere[k]) {
-            ++begin;
-        }
-        std::size_t end = begin;
-        while (end < old.size() && old[end].sphere == surface.sphere[k]) {
-            ++end;
-        }
+        const std::size_t end = end_of_touches(old, begin, surface.sphere[k]);
         for (const auto& contact : found) {
             const Vec3 point = surface.origin + turn * contact.point;
             const double distance = std::sqrt(contact.square);
@@ -239,7 +173,12 @@ WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t nu
             const Vec3 turning = 0.5 * normal.dot(surface.motion.spin + spheres.spin.at(s)) * normal;
             const double way = (velocity - spheres.velocity.at(s)).norm() + spheres.spin.at(s).norm() * radius;
             SurfaceTouch touch{surface.sphere[k], contact.face, contact.feature, contact.index, contact.point, {}, {}};
-            touch.history = inherit(old, begin, end, contact.point, 1.01 * way * elapsed + 1e-9 * radius);
+            const std::size_t before = nearest_touch(old, begin, end, contact.point, 1.01 * way * elapsed + 1e-9 * radius,
+                                                     [](const SurfaceTouch& t) { return t.point; });
+            if (before < end) {
+                touch.history = old[before].history;
+                old[before].sphere = -1;
+            }
             const auto load = advance_wall(spheres, s, surface.law[k], radius, {distance, normal, velocity, surface.motion.spin, turning},
                                            elapsed, dt, touch.history, sum);
             touch.force = load.force;

@@ -1,16 +1,11 @@
 // A rigid surface of faces among loose spheres: fixed or moving as a whole, met by the Double Hierarchy method (thesis, chapter 3).
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
-#include "core/boundaries/double_hierarchy.hpp"
-#include "core/boundaries/face_tree.hpp"
-#include "core/boundaries/wall_contact.hpp"
-#include "core/contacts/loads.hpp"
+#include "core/boundaries/near_faces.hpp"
 #include "core/motion/rotation.hpp"
-#include "core/parallel/team.hpp"
 
 namespace proveta {
 
@@ -33,7 +28,7 @@ struct SurfaceVelocity {
 
 /// Faces are given in the surface's own frame, which never changes: so what follows from them is worked out once, and spheres are seen from
 /// there. Both sides of a face are met.
-struct Surface {
+struct Surface : NearFaces {
     std::string name;
     SurfaceGeometry geometry;
     FaceTree tree;
@@ -45,9 +40,6 @@ struct Surface {
     SurfaceVelocity drive;                                            ///< of the steps to come
     SurfaceVelocity motion;                                           ///< of the last move
 
-    std::vector<std::int32_t> sphere;      ///< spheres near a face, ascending
-    std::vector<std::uint32_t> near_first; ///< where their faces begin in `near_face`; one more than there are spheres
-    std::vector<std::uint32_t> near_face;
     std::vector<LooseContact> law;                  ///< constants, per listed sphere
     std::vector<std::vector<SurfaceTouch>> touches; ///< per block of spheres, ascending by sphere
     WallSums sums;                                  ///< of the last step
@@ -58,9 +50,6 @@ struct Surface {
     [[nodiscard]] Vec3 to_space(const Vec3& own) const { return origin + attitude * own; }
     [[nodiscard]] Vec3 to_own(const Vec3& space) const { return attitude.conjugate() * (space - origin); }
     [[nodiscard]] Vec3 velocity_at(const Vec3& space) const { return motion.velocity + motion.spin.cross(space - origin); }
-    [[nodiscard]] std::span<const std::uint32_t> faces_near(std::size_t listed) const {
-        return {near_face.data() + near_first[listed], near_face.data() + near_first[listed + 1]};
-    }
     /// Unit vector of a contact: along `to` (m, `distance` long) between contact point and centre, or the face's where the centre lies on
     /// it.
     [[nodiscard]] Vec3 normal_at(const FaceContact& contact, const Vec3& to, double distance) const {

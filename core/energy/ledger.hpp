@@ -12,16 +12,17 @@ struct Ledger {
     double pressure = 0.0;   ///< work of pressures on the specimen
     double body = 0.0;       ///< work of gravity since the start
     double initial = 0.0;    ///< kinetic and stored energy that the test began with
-    double elastic = 0.0;    ///< stored in bonds, contacts and platen contacts, now
+    double coupling = 0.0;   ///< made, or taken out where negative, by the way contact forces are shared out over deformable bodies
+    double elastic = 0.0;    ///< stored in bonds, contacts and deformable bodies, now
     double kinetic = 0.0;    ///< of translation and rotation, now
     double damage = 0.0;     ///< dissipated by damage and failure of bonds
-    double plastic = 0.0;    ///< by plastic shortening of bonds
+    double plastic = 0.0;    ///< by plastic shortening of bonds and plastic strain of bodies
     double friction = 0.0;   ///< by sliding
-    double dashpots = 0.0;   ///< by local damping
+    double dashpots = 0.0;   ///< by local damping, and by that of bodies (4.72)
     double background = 0.0; ///< by background damping (5.18-5.19)
 
     [[nodiscard]] double spent() const { return elastic + kinetic + damage + plastic + friction + dashpots + background; }
-    [[nodiscard]] double given() const { return platens + pressure + body + initial; }
+    [[nodiscard]] double given() const { return platens + pressure + body + initial + coupling; }
     [[nodiscard]] double residual() const { return given() - spent(); }
 
     /// Residual over the largest amount of energy that went through the ledger; 0 for an empty ledger.

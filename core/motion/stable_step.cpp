@@ -229,6 +229,9 @@ NearWalls near_walls(const Spheres& s, const Walls& walls) {
     for (std::size_t p = 0; p < walls.surfaces.size(); ++p) {
         list(walls.platens.size() + p, walls.surfaces[p].sphere);
     }
+    for (std::size_t p = 0; p < walls.bodies.size(); ++p) {
+        list(walls.platens.size() + walls.surfaces.size() + p, walls.bodies[p].sphere);
+    }
     return near;
 }
 
@@ -248,6 +251,33 @@ void add_surface(const Surface& surface, std::size_t e, const Vec3& centre, doub
         const double distance = to.norm();
         block.add(surface.normal_at(contact, to, distance), stiffness_at(surface.law[e], radius - distance + skin), radius, 1.0, base);
         block.rolling += surface.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
+    }
+}
+
+// A sphere's contacts with a deformable body together are no stiffer than the stiffest alone, by their shares; that one's direction is
+// known only where there is one. The nodes bear the rest (`sphere_share`).
+void add_body(const Deformable& body, std::size_t e, const Vec3& centre, const LooseBody& sphere, double skin, const Vec3& base,
+              Block& block) {
+    std::vector<FaceContact> found;
+    double_hierarchy(body.skin.geometry(), body.faces_near(e), centre, sphere.radius + skin, found);
+    if (found.empty()) {
+        return;
+    }
+    const double share = sphere_share(body, sphere.mass);
+    const bool by_area = body.coupling == Coupling::area_distributed;
+    for (const auto& contact : found) {
+        const double distance = std::sqrt(contact.square);
+        const Vec3 normal = distance > 0.0 ? Vec3((contact.point - centre) / distance) : body.skin.geometry().plane[contact.face].normal;
+        Stiffness spring = stiffness_at(body.law[e], sphere.radius - distance + skin);
+        if (by_area && found.size() > 1) {
+            spring.k_n = spring.k_t = std::max(spring.k_n, spring.k_t);
+            spring.c_n = spring.c_t = std::max(spring.c_n, spring.c_t);
+        }
+        block.add(normal, spring, sphere.radius, share, base);
+        block.rolling += body.law[e].rolling_arm > 0.0 ? 2.0 * rolling::share : 0.0;
+        if (by_area) { // the nearest is the stiffest
+            break;
+        }
     }
 }
 
@@ -272,8 +302,11 @@ template <class Use> void StepBound::each_block(const Assembly& a, double skin, 
         for (const auto& [wall, e] : near[k]) {
             if (wall < a.walls.platens.size()) {
                 add_platen(a.walls.platens[wall], e, s.position.at(k), skin, base, block);
+            } else if (const std::size_t later = wall - a.walls.platens.size(); later < a.walls.surfaces.size()) {
+                add_surface(a.walls.surfaces[later], e, s.position.at(k), s.radius[k], skin, base, block);
             } else {
-                add_surface(a.walls.surfaces[wall - a.walls.platens.size()], e, s.position.at(k), s.radius[k], skin, base, block);
+                add_body(a.walls.bodies[later - a.walls.surfaces.size()], e, s.position.at(k), {s.radius[k], s.mass[k], s.inertia[k]}, skin,
+                         base, block);
             }
         }
     };

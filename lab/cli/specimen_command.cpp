@@ -20,16 +20,23 @@ namespace {
 void print_info(const Specimen& s) {
     const auto st = statistics(s);
     fmt::print("shape                {}\n", s.shape.text());
+    if (st.stones > 0) {
+        fmt::print("stones               {} of {} forms\n", st.stones, s.forms.size());
+    }
     fmt::print("spheres              {}\n", st.spheres);
     fmt::print("mean radius          {:.4f} mm, from {:.4f} to {:.4f}\n", 1e3 * st.mean_radius, 1e3 * st.smallest_radius,
                1e3 * st.largest_radius);
     fmt::print("relative deviation   {:.2f} %\n", 100 * st.relative_deviation);
-    fmt::print("porosity             {:.2f} % (overlaps counted twice)\n", 100 * st.porosity);
+    fmt::print("porosity             {:.2f} % ({})\n", 100 * st.porosity,
+               st.stones > 0 ? "by the stones' volumes" : "overlaps counted twice");
     fmt::print("touching neighbours  {:.3f}\n", st.touching);
     fmt::print("largest overlap      {:.3f} of the smaller radius\n", st.largest_overlap);
     fmt::print("fabric deviator      {:.4f}\n", st.fabric_deviator);
     fmt::print("spheres outside      {}\n", st.outside);
     fmt::print("spheres at the ends  {} below, {} above\n", st.on_lower_end, st.on_upper_end);
+    if (st.stones > 0) {
+        return; // nothing to bond
+    }
     Spheres spheres;
     spheres.planar = s.shape.planar();
     for (std::size_t k = 0; k < s.size(); ++k) {
@@ -86,7 +93,8 @@ void add_make(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& cho
                 json = deck.contains("specimen") ? deck["specimen"] : input::Json::object();
             }
             apply_settings(json, a->settings);
-            SpecimenRecipe recipe;
+            const bool granular = json.is_object() && json.contains("particles"); // which only such recipes have
+            SpecimenRecipe recipe = granular ? granular_recipe() : SpecimenRecipe{};
             input::Problems problems;
             const std::string source = a->deck.empty() ? "recipe" : a->deck;
             input::read(json, recipe, source, "", problems);

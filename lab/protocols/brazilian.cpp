@@ -69,12 +69,12 @@ class Brazilian : public Protocol {
     }
 
     // 2. Stages and 3. controls: platens at the two ends of a diameter, closing at the rate, both at half of it.
-    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& /*bonds*/, const Shape& shape) const override {
-        if (shape.kind != ShapeKind::cylinder) {
+    [[nodiscard]] Press press(const InPress& body) const override {
+        if (body.shape.kind != ShapeKind::cylinder) {
             throw std::invalid_argument("a specimen that is not round");
         }
         Press press;
-        const double radius = 0.5 * shape.diameter;
+        const double radius = 0.5 * body.shape.diameter;
         Face face{Vec3::UnitX(), 1.0, 0.0, Face::boundless};
         double area = 0.0; // flat platens and jaws touch along a line that grows: no area to share out
         double capping = flat_capping;
@@ -82,17 +82,17 @@ class Brazilian : public Protocol {
             face.curvature = 1.0 / (jaw_radius_ * radius);
         } else if (platens_ == "strips") {
             face.curvature = 1.0 / radius;
-            face.half_width = 0.5 * strip_width_ * shape.diameter;
-            area = 2.0 * radius * std::asin(strip_width_) * shape.height;
+            face.half_width = 0.5 * strip_width_ * body.shape.diameter;
+            area = 2.0 * radius * std::asin(strip_width_) * body.shape.height;
             capping = strip_capping;
         }
         for (const double inward : {1.0, -1.0}) {
             face.inward = inward;
-            press.platens.push_back(make_platen(spheres, face, -inward * radius, friction_value(friction_), area, capping));
+            press.platens.push_back(make_platen(body.spheres, face, -inward * radius, friction_value(friction_), area, capping));
         }
-        press.length = shape.diameter;
-        press.area = 0.5 * pi * shape.diameter * shape.height; // force over it is the splitting stress
-        press.inner = shape.inner(0.25, 0.8);
+        press.length = body.shape.diameter;
+        press.area = 0.5 * pi * body.shape.diameter * body.shape.height; // force over it is the splitting stress
+        press.inner = body.shape.inner(0.25, 0.8);
         press.bands = false;
         return press;
     }

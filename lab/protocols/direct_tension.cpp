@@ -45,8 +45,8 @@ class DirectTension : public Protocol {
     }
 
     // 2. Stages and 3. controls: platens glued to the ends, parting at the rate, both at half of it.
-    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& /*bonds*/, const Shape& shape) const override {
-        Press press = axial_press(spheres, shape, glued, 1.0);
+    [[nodiscard]] Press press(const InPress& body) const override {
+        Press press = axial_press(body.spheres, body.shape, glued, 1.0);
         press.platens[0].bonded = press.platens[1].bonded = true;
         press.sense = -1.0;
         return press;

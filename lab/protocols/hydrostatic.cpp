@@ -58,9 +58,9 @@ class Hydrostatic : public Protocol {
     }
 
     // 2. Stages and 3. controls: one ramp of pressure, the platens on a servo.
-    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& bonds, const Shape& shape) const override {
-        Press press = axial_press(spheres, shape, friction_value(friction_), 1.0);
-        press.pressures = {lateral_pressure(shape, spheres, bonds)};
+    [[nodiscard]] Press press(const InPress& body) const override {
+        Press press = axial_press(body.spheres, body.shape, friction_value(friction_), 1.0);
+        press.pressures = {lateral_pressure(body.shape, body.spheres, body.bonds)};
         return press;
     }
 

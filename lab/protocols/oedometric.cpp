@@ -62,24 +62,24 @@ class Oedometric : public Protocol {
     }
 
     // 2. Stages and 3. controls: platens closing; ring or walls at rest.
-    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& /*bonds*/, const Shape& shape) const override {
-        Press press = axial_press(spheres, shape, friction_value(friction_), 1.0);
-        if (shape.kind == ShapeKind::cylinder) {
-            const double radius = 0.5 * (ring_.word.empty() ? ring_.number : shape.diameter);
-            if (radius < 0.5 * shape.diameter * (1.0 - 1e-9)) {
+    [[nodiscard]] Press press(const InPress& body) const override {
+        Press press = axial_press(body.spheres, body.shape, friction_value(friction_), 1.0);
+        if (body.shape.kind == ShapeKind::cylinder) {
+            const double radius = 0.5 * (ring_.word.empty() ? ring_.number : body.shape.diameter);
+            if (radius < 0.5 * body.shape.diameter * (1.0 - 1e-9)) {
                 throw std::invalid_argument("a specimen wider than the ring (loading.ring_diameter)");
             }
-            press.side_area = pi * shape.diameter * shape.height;
+            press.side_area = pi * body.shape.diameter * body.shape.height;
             // Where the ring stands off, nothing touches it at the start.
-            press.platens.push_back(make_platen(spheres, ring_face(radius), -radius, ring_friction_, press.side_area, capping));
-        } else if (shape.kind == ShapeKind::prism) {
-            press.side_area = 2.0 * (shape.width + shape.depth) * shape.height;
+            press.platens.push_back(make_platen(body.spheres, ring_face(radius), -radius, ring_friction_, press.side_area, capping));
+        } else if (body.shape.kind == ShapeKind::prism) {
+            press.side_area = 2.0 * (body.shape.width + body.shape.depth) * body.shape.height;
             for (const bool across_x : {true, false}) {
                 for (const double inward : {1.0, -1.0}) {
                     const Face face{across_x ? Vec3::UnitX() : Vec3::UnitY(), inward, 0.0, Face::boundless};
-                    const double half = 0.5 * (across_x ? shape.width : shape.depth);
-                    const double area = (across_x ? shape.depth : shape.width) * shape.height;
-                    press.platens.push_back(make_platen(spheres, face, -inward * half, ring_friction_, area, capping));
+                    const double half = 0.5 * (across_x ? body.shape.width : body.shape.depth);
+                    const double area = (across_x ? body.shape.depth : body.shape.width) * body.shape.height;
+                    press.platens.push_back(make_platen(body.spheres, face, -inward * half, ring_friction_, area, capping));
                 }
             }
         } else {

@@ -13,6 +13,7 @@
 #include "lab/controls/control.hpp"
 #include "lab/failure_event.hpp"
 #include "lab/press.hpp"
+#include "materials/card.hpp"
 #include "reports/record/record.hpp"
 #include "specimens/specimen.hpp"
 
@@ -42,11 +43,12 @@ struct BenchView {
     const Shape& shape;
     const Press& press;
     const Instruments& instruments;
-    double wave_speed;          ///< of a bar of the material, m/s
+    double wave_speed;          ///< of a bar of the material, m/s; of a loose specimen an estimate at the test's pressure
     const report::Table& curve; ///< samples so far
+    double grain = 0.0;         ///< as in `InPress`, m
 
     [[nodiscard]] double strain() const;       ///< in the sense of the test: closing, or parting, of the platens over their distance
-    [[nodiscard]] double stress() const;       ///< in the sense of the test: mean of both platens' force over the nominal area, Pa
+    [[nodiscard]] double stress() const;       ///< in the sense of the test: mean of both platens' force over the area, Pa
     [[nodiscard]] double girth_strain() const; ///< circumferential, positive when the specimen gets thinner
     [[nodiscard]] double crossing() const { return press.length / wave_speed; } ///< time in which a wave crosses, s
 };
@@ -73,6 +75,8 @@ struct Measured {
     const std::vector<FailureEvent>& events;
     const Shape& shape;
     const Press& press;
+    double grain = 0.0;   ///< as in `InPress`, m
+    double density = 0.0; ///< of the spheres or stones, kg/m3
 };
 
 /// One curve of a plot: columns of the curve, or of the energies, and how they are shown.
@@ -92,6 +96,16 @@ struct PlotSpec {
     bool mark_peak = false; ///< of the first curve
 };
 
+/// What a machine is built around.
+struct InPress {
+    const Spheres& spheres;
+    const Bonds& bonds;
+    const Shape& shape;
+    const std::vector<Material>& materials;
+    double grain = 0.0;      ///< mean diameter of a sphere, or of the sphere of a stone's volume, m
+    double wave_speed = 0.0; ///< of a bar of the material, m/s
+};
+
 class Protocol {
   public:
     virtual ~Protocol() = default;
@@ -101,13 +115,21 @@ class Protocol {
 
     /// The specimen that the standard asks for, where a deck says nothing else.
     virtual void suggest(SpecimenRecipe&) const {}
+    /// The material that is taken where a deck names none.
+    [[nodiscard]] virtual std::string card() const { return MaterialInput{}.card; }
+    /// Whether its specimens are loose: without bonds, and without what belongs to these in a deck.
+    [[nodiscard]] virtual bool granular() const { return false; }
+    /// For loose specimens: the pressure that they are tested at, on which their stiffness depends, Pa.
+    [[nodiscard]] virtual double pressure() const { return 0.0; }
+    /// For loose specimens: gravity during the test, m/s2, downwards.
+    [[nodiscard]] virtual double gravity() const { return 0.0; }
     /// The "loading" section.
     virtual void declare_loading(input::Visitor& v) = 0;
     /// What the deck's parts contradict.
     virtual void check(const Deck& deck, input::Problems& problems) const = 0;
 
     /// The machine around the specimen. Throws std::invalid_argument, saying what, for a specimen that does not fit into it.
-    [[nodiscard]] virtual Press press(const Spheres& spheres, const Bonds& bonds, const Shape& shape) const = 0;
+    [[nodiscard]] virtual Press press(const InPress& body) const = 0;
     /// Parts 2 and 3. pace: factor on all speeds, for a check that they do not matter.
     [[nodiscard]] virtual std::vector<Stage> stages(const BenchView& bench, double pace) const = 0;
     /// True when the test is to be run again at half the rate.

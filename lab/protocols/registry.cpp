@@ -9,7 +9,8 @@ namespace proveta {
     X(brazilian)                                                                                                                           \
     X(oedometric)                                                                                                                          \
     X(hydrostatic)                                                                                                                         \
-    X(direct_tension)
+    X(direct_tension)                                                                                                                      \
+    X(granular_triaxial)
 
 #define PROVETA_DECLARE(name) std::unique_ptr<Protocol> make_##name();
 PROVETA_TESTS(PROVETA_DECLARE)

@@ -5,6 +5,7 @@
 #include "lab/axial_results.hpp"
 #include "lab/confinement.hpp"
 #include "lab/deck.hpp"
+#include "lab/membrane.hpp"
 #include "lab/stages.hpp"
 #include "lab/surface_pressure.hpp"
 
@@ -24,7 +25,7 @@ class Triaxial : public Protocol {
             "A cylinder or prism is brought under an equal pressure on all sides, which is held, and then pressed along its axis at that "
             "pressure on its side until its stress has fallen well past the peak, or until an axial strain.",
             {{"ASTM D7012 method A and B", "isotropic stage, axial loading at constant confining pressure; peak, E and nu from gauges",
-              "no membrane, so none to correct for: the pressure acts on the surface spheres; dry, no pore pressure"},
+              "the pressure acts on the surface spheres unless \"confinement\" asks for a membrane; dry, no pore pressure"},
              {"Sfer et al. 2002", "150 x 300 mm cylinder, the same series of pressures, axial control to past the peak",
               "their 0.0006 mm/s; control by the girth at low pressure is an option, not the default"}}};
     }
@@ -32,6 +33,13 @@ class Triaxial : public Protocol {
     void declare_loading(input::Visitor& v) override {
         declare_axial(v, axial_, true);
         declare(v, confinement_);
+        v.choice("confinement", confined_by_,
+                 {{"spheres", "the pressure acts on the surface spheres, normalised to the true surface (thesis 5.5.3)"},
+                  {"membrane", "it acts on a rubber membrane that the spheres press against"}},
+                 "how the pressure reaches the side");
+        if (v.wants_all() || confined_by_ == "membrane") {
+            v.section("membrane", membrane_, "the rubber around the specimen");
+        }
         declare_friction(v, friction_);
         v.section("stop", stop_, "what ends the test");
         v.refused("strips", "loading strips belong to a brazilian test");
@@ -40,13 +48,22 @@ class Triaxial : public Protocol {
     void check(const Deck& deck, input::Problems& problems) const override {
         check_sides(deck, problems);
         check_confinement(confinement_, deck, problems);
+        if (confined_by_ == "membrane" && deck.specimen.file.empty() && deck.specimen.shape == "prism") {
+            problems.push_back(
+                {deck.source, "/loading/confinement", "\"membrane\" around a prism", "a specimen that is round", "or \"spheres\""});
+        }
         check_axial(axial_, stop_.axial_strain, deck.source, problems);
     }
 
     // 2. Stages and 3. controls: all sides to the pressure, the platens on a servo; a pause; axial loading.
-    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& bonds, const Shape& shape) const override {
-        Press press = axial_press(spheres, shape, friction_value(friction_), 1.0);
-        press.pressures = {lateral_pressure(shape, spheres, bonds)};
+    [[nodiscard]] Press press(const InPress& body) const override {
+        Press press = axial_press(body.spheres, body.shape, friction_value(friction_), 1.0);
+        if (confined_by_ == "membrane") {
+            press.bodies.push_back(
+                make_membrane(membrane_, {body.shape, 2.0 * body.grain, body.shape.height / body.wave_speed, body.materials.front()}));
+        } else {
+            press.pressures = {lateral_pressure(body.shape, body.spheres, body.bonds)};
+        }
         return press;
     }
 
@@ -132,6 +149,8 @@ class Triaxial : public Protocol {
 
     AxialLoading axial_;
     Confinement confinement_;
+    std::string confined_by_ = "spheres";
+    MembraneInput membrane_;
     input::NumberOrWord friction_{0.3, ""};
     StopRules stop_;
 };

@@ -49,8 +49,8 @@ class Ucs : public Protocol {
     }
 
     // 2. Stages and 3. controls: platens in contact without load, then closing at the rate, both at half of it; cycles; the girth may lead.
-    [[nodiscard]] Press press(const Spheres& spheres, const Bonds& /*bonds*/, const Shape& shape) const override {
-        return axial_press(spheres, shape, friction_value(friction_), platen_stiffness_);
+    [[nodiscard]] Press press(const InPress& body) const override {
+        return axial_press(body.spheres, body.shape, friction_value(friction_), platen_stiffness_);
     }
 
     [[nodiscard]] std::vector<Stage> stages(const BenchView& bench, double pace) const override {

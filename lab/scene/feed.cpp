@@ -12,20 +12,6 @@
 
 namespace proveta {
 
-namespace {
-
-// Uniform over all attitudes (K. Shoemake, Graphics Gems III, 124, 1992).
-rotation::Quaternion any_attitude(Random& random) {
-    const double u = random.uniform();
-    const double a = 2.0 * std::numbers::pi * random.uniform();
-    const double b = 2.0 * std::numbers::pi * random.uniform();
-    const double p = std::sqrt(1.0 - u);
-    const double q = std::sqrt(u);
-    return {q * std::cos(b), p * std::sin(a), p * std::cos(a), q * std::sin(b)};
-}
-
-} // namespace
-
 Feed::Feed(const Scene& scene)
     : scene_(scene), random_(static_cast<std::uint64_t>(scene.seed), Stream::positions), kinds_(make_kinds(scene)) {
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
@@ -141,14 +127,14 @@ bool Feed::anyone_due(double time) const {
     return false;
 }
 
-void Feed::put_in(double time, const std::vector<Surface>& surfaces, const Spheres& there, Population& bodies, Population& alone) {
+void Feed::put_in(double time, const Walls& walls, const Spheres& there, Population& bodies, Population& alone) {
     double widest = 0.0;
     for (const auto& kind : kinds_) {
         for (const auto& planned : kind.plan) {
             widest = std::max(widest, kind.reach_of(planned));
         }
     }
-    Room room(surfaces, there, widest);
+    Room room(walls, there, widest);
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
         if (time >= next_look_[k] && counts_[k].placed < counts_[k].planned) {
             if (scene_.particles[k].place == "grow") {
@@ -160,14 +146,19 @@ void Feed::put_in(double time, const std::vector<Surface>& surfaces, const Spher
     }
 }
 
-Population Feed::first(const std::vector<Surface>& surfaces) {
+Population Feed::first(const Walls& walls) {
     for (const auto& p : scene_.particles) {
         domain_.extend(box_of(p));
     }
     for (const auto& o : scene_.outlets) {
         domain_.extend(box_of(o));
     }
-    for (const auto& surface : surfaces) {
+    for (const auto& body : walls.bodies) {
+        for (const Vec3& v : body.solid.position) {
+            domain_.extend(v);
+        }
+    }
+    for (const auto& surface : walls.surfaces) {
         for (const auto& v : surface.geometry.mesh.vertex) {
             domain_.extend(surface.to_space(v));
         }
@@ -177,7 +168,7 @@ Population Feed::first(const std::vector<Surface>& surfaces) {
 
     Population bodies;
     Population alone;
-    put_in(0.0, surfaces, Spheres{}, bodies, alone);
+    put_in(0.0, walls, Spheres{}, bodies, alone);
     Population out;
     out.spheres = std::move(alone.spheres);
     out.spheres.packed = false;
@@ -224,7 +215,7 @@ void Feed::look_after(Model& model) {
     Population bodies;
     Population alone;
     if (anyone_due(model.time())) {
-        put_in(model.time(), model.walls.surfaces, model.spheres, bodies, alone);
+        put_in(model.time(), model.walls, model.spheres, bodies, alone);
     }
     const auto stay = who_stays(model.spheres, model.clusters);
     const bool gone = std::find(stay.begin(), stay.end(), 0) != stay.end();

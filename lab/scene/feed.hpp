@@ -33,7 +33,7 @@ class Feed {
     explicit Feed(const Scene& scene);
 
     /// What stands there at the start: everything that is grown, and what is poured as far as there is room.
-    Population first(const std::vector<Surface>& surfaces);
+    Population first(const Walls& walls);
 
     /// Looks at a model between two steps: takes out who has reached an outlet or left the domain, lets in who is due and has room, and
     /// now and then puts those that are near in space near in memory. Cheap unless something is due.
@@ -51,7 +51,7 @@ class Feed {
     void grow(std::size_t number, Room& room, Population& bodies, Population& alone);
     void pour(std::size_t number, double time, Room& room, Population& bodies, Population& alone);
     [[nodiscard]] bool anyone_due(double time) const;
-    void put_in(double time, const std::vector<Surface>& surfaces, const Spheres& there, Population& bodies, Population& alone);
+    void put_in(double time, const Walls& walls, const Spheres& there, Population& bodies, Population& alone);
     [[nodiscard]] std::vector<char> who_stays(const Spheres& spheres, const Clusters& clusters);
     [[nodiscard]] bool stays(const Vec3& at);
 

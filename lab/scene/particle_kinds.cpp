@@ -10,7 +10,6 @@
 #include "core/contacts/rolling.hpp"
 #include "core/motion/stable_step.hpp"
 #include "lab/scene/scene_surfaces.hpp"
-#include "specimens/cluster_shape.hpp"
 #include "specimens/grading.hpp"
 #include "specimens/stones.hpp"
 
@@ -26,11 +25,7 @@ std::vector<double> sizes_of(const ParticleInput& p, std::uint64_t seed, const S
     const auto n = static_cast<std::size_t>(p.count);
     std::vector<double> sizes(n, p.size);
     if (!p.grading.empty()) {
-        std::vector<SievePoint> curve;
-        for (const auto& point : p.grading) {
-            curve.push_back({point.diameter, point.passing});
-        }
-        sizes = graded_radii(n, curve, seed);
+        sizes = graded_radii(n, sieve_curve(p.grading), seed);
         scale(sizes, 2.0);
     } else if (p.deviation > 0.0) {
         try {
@@ -46,33 +41,18 @@ std::vector<double> sizes_of(const ParticleInput& p, std::uint64_t seed, const S
     return sizes;
 }
 
-// Form of size 1: the diameter of the sphere of its volume. Inscribed spheres fill less than the body; they are enlarged so that their
-// union has its volume, for a bed of clusters to be as dense as one of bodies.
-ClusterShape form_of(const SurfaceMesh& mesh, std::int64_t spheres) {
-    FillRule rule;
-    rule.spheres = static_cast<int>(spheres);
-    rule.cells = 32;
-    ClusterShape shape = fill_with_spheres(mesh, rule);
-    const double factor = std::cbrt(shape.volume / mass_properties(shape.centre, shape.radius).volume);
-    for (auto& c : shape.centre) {
-        c *= factor;
-    }
-    scale(shape.radius, factor);
-    return scaled(shape, 1.0 / std::cbrt(6.0 * shape.volume / std::numbers::pi));
-}
-
 std::vector<ClusterShape> forms_of(const ParticleInput& p, std::uint64_t seed, const Scene& scene, const std::string& path) {
     std::vector<ClusterShape> forms;
     if (p.form == "file") {
         try {
-            forms.push_back(form_of(closed_surface(scene, p.file, path + "/file"), p.spheres));
+            forms.push_back(form_of(closed_surface(scene, p.file, path + "/file"), static_cast<int>(p.spheres)));
         } catch (const std::invalid_argument& error) {
             throw input::InputError({{scene.source, path + "/file", "\"" + p.file + "\"", "a solid that spheres can fill", error.what()}});
         }
     } else if (p.form == "stone") {
         const StoneKind kind{p.elongation, p.flatness, static_cast<int>(p.facets)};
         for (std::int64_t k = 0; k < std::min(p.forms, p.count); ++k) {
-            forms.push_back(form_of(stone_surface(kind, 1000 * seed + static_cast<std::uint64_t>(k)), p.spheres));
+            forms.push_back(form_of(stone_surface(kind, 1000 * seed + static_cast<std::uint64_t>(k)), static_cast<int>(p.spheres)));
         }
     }
     return forms;
@@ -91,10 +71,7 @@ std::vector<ParticleKind> make_kinds(const Scene& scene) {
         kind.density = scene.materials[static_cast<std::size_t>(kind.material)].material.values.density;
         kind.forms = forms_of(p, seed, scene, path);
         for (const auto& form : kind.forms) {
-            kind.reach.push_back(0.0);
-            for (std::size_t s = 0; s < form.radius.size(); ++s) {
-                kind.reach.back() = std::max(kind.reach.back(), form.centre[s].norm() + form.radius[s]);
-            }
+            kind.reach.push_back(reach_of(form));
         }
         for (const double size : sizes_of(p, seed, scene, path)) {
             kind.plan.push_back({size, kind.forms.empty() ? -1 : static_cast<int>(kind.plan.size() % kind.forms.size())});

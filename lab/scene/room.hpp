@@ -1,21 +1,25 @@
 // Where there is still room for a particle.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
-#include "core/boundaries/surface.hpp"
+#include "core/boundaries/walls.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
 
-/// Spheres and surfaces that are there, and spheres around the particles that were put in since.
+/// Spheres, surfaces and deformable bodies that are there, and spheres around the particles that were put in since.
 class Room {
   public:
     /// widest: radius of the largest sphere that will be asked for, m.
-    Room(const std::vector<Surface>& surfaces, const Spheres& there, double widest) : surfaces_(surfaces) {
+    Room(const Walls& walls, const Spheres& there, double widest) : walls_(walls) {
+        for (const auto& body : walls.bodies) {
+            trees_.emplace_back(body.skin.geometry().mesh);
+        }
         double largest = widest;
         for (const double r : there.radius) {
             largest = std::max(largest, r);
@@ -50,10 +54,10 @@ class Room {
         return beyond_surfaces(centre, radius);
     }
 
-    /// Whether it touches no surface.
+    /// Whether it touches no surface and no body.
     [[nodiscard]] bool beyond_surfaces(const Vec3& centre, double radius) const {
         std::vector<std::uint32_t> faces;
-        for (const auto& surface : surfaces_) {
+        for (const auto& surface : walls_.surfaces) {
             const Vec3 own = surface.to_own(centre);
             faces.clear();
             surface.tree.near(own, radius, faces);
@@ -61,6 +65,14 @@ class Room {
                 if (cuts(surface.geometry, face, own, radius)) {
                     return false;
                 }
+            }
+        }
+        for (std::size_t b = 0; b < trees_.size(); ++b) {
+            const SurfaceGeometry& skin = walls_.bodies[b].skin.geometry();
+            faces.clear();
+            trees_[b].near(centre, radius, faces);
+            if (std::any_of(faces.begin(), faces.end(), [&](auto face) { return cuts(skin, face, centre, radius); })) {
+                return false;
             }
         }
         return true;
@@ -81,7 +93,8 @@ class Room {
                (static_cast<std::uint64_t>(c.z()) & mask);
     }
 
-    const std::vector<Surface>& surfaces_;
+    const Walls& walls_;
+    std::vector<FaceTree> trees_; // of the bodies as they are now
     double cell_ = 1.0;
     std::unordered_map<std::uint64_t, std::vector<Taken>> taken_;
 };

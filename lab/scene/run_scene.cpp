@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "lab/fields.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
@@ -114,8 +115,12 @@ class Performance {
 
     void write_fields() {
         std::filesystem::create_directories(out_.path() / "fields");
-        for (const auto& [part, geometry] :
-             {std::pair{"particles", particle_fields(play_.model())}, std::pair{"surfaces", surface_fields(play_.model())}}) {
+        const Model& m = play_.model();
+        std::vector<std::pair<std::string, report::Geometry>> parts{{"particles", particle_fields(m)}, {"surfaces", surface_fields(m)}};
+        if (!m.walls.bodies.empty()) {
+            parts.emplace_back("bodies", body_fields(m));
+        }
+        for (const auto& [part, geometry] : parts) {
             const std::string file = fmt::format("fields/{}_{:04}.vtp", part, fields_);
             report::write_vtp(out_.file(file), geometry);
             series_.push_back({play_.model().time(), part, file});

@@ -154,6 +154,7 @@ void declare(input::Visitor& v, Scene& s) {
     v.numbers("gravity", s.gravity, 3, Unit::acceleration, any_number(), "x y z");
     v.list("materials", s.materials, "the materials by name");
     v.list("surfaces", s.surfaces, "rigid surfaces");
+    v.list("bodies", s.bodies, "deformable bodies and membranes");
     v.list("particles", s.particles, "kinds of particles and how they come in");
     v.list("outlets", s.outlets, "boxes that take out every particle whose centre comes in");
     v.list("measures", s.measures, "boxes whose solid fraction and coordination are reported at the end");
@@ -212,6 +213,9 @@ Json resolved(const Scene& scene) {
     for (auto& s : copy.surfaces) {
         absolute(s.file);
         absolute(s.motion.file);
+    }
+    for (auto& b : copy.bodies) {
+        absolute(b.file);
     }
     for (auto& p : copy.particles) {
         absolute(p.file);

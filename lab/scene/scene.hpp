@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/input/json.hpp"
+#include "lab/scene/body_input.hpp"
 #include "lab/scene/motion.hpp"
 #include "materials/card.hpp"
 #include "specimens/specimen.hpp"
@@ -101,6 +102,7 @@ struct Scene {
     std::vector<double> gravity{0.0, 0.0, -9.81};
     std::vector<NamedMaterial> materials;
     std::vector<SurfaceInput> surfaces;
+    std::vector<BodyInput> bodies;
     std::vector<ParticleInput> particles;
     std::vector<OutletInput> outlets;
     std::vector<OutletInput> measures;

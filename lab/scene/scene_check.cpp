@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/input/suggest.hpp"
+#include "lab/scene/scene_bodies.hpp"
 
 namespace proveta {
 
@@ -32,11 +33,19 @@ class Check {
         }
         unique("materials", scene_.materials);
         unique("surfaces", scene_.surfaces);
+        unique("bodies", scene_.bodies);
         unique("particles", scene_.particles);
         unique("outlets", scene_.outlets);
         unique("measures", scene_.measures);
         for (std::size_t k = 0; k < scene_.surfaces.size(); ++k) {
             surface(scene_.surfaces[k], fmt::format("/surfaces/{}", k));
+        }
+        for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
+            const std::string at = fmt::format("/bodies/{}", k);
+            check_body(scene_.bodies[k], scene_.source, at, problems_);
+            if (scene_.bodies[k].shape == "file") {
+                file(scene_.bodies[k].file, at);
+            }
         }
         for (std::size_t k = 0; k < scene_.particles.size(); ++k) {
             particles(scene_.particles[k], fmt::format("/particles/{}", k));

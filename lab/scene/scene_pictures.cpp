@@ -22,14 +22,13 @@ struct View {
     [[nodiscard]] double y(const Vec3& p) const { return sense > 0.0 ? p[up] - shown.min()[up] : shown.max()[up] - p[up]; }
 };
 
-// Where the edges of a face go through the plane.
-void cut_face(const Surface& surface, std::size_t face, const View& view, std::vector<report::PictureLine>& lines) {
-    const SurfaceMesh& mesh = surface.geometry.mesh;
+// Where the edges of a polygon go through the plane.
+void cut_polygon(const std::vector<Vec3>& corners, const View& view, std::vector<report::PictureLine>& lines) {
     std::vector<Vec3> through;
-    const std::size_t n = mesh.corners(face);
+    const std::size_t n = corners.size();
     for (std::size_t k = 0; k < n; ++k) {
-        const Vec3 a = surface.to_space(mesh.at(face, k));
-        const Vec3 b = surface.to_space(mesh.at(face, (k + 1) % n));
+        const Vec3& a = corners[k];
+        const Vec3& b = corners[(k + 1) % n];
         const double da = a[view.out] - view.middle;
         const double db = b[view.out] - view.middle;
         if ((da < 0.0) != (db < 0.0)) {
@@ -38,6 +37,23 @@ void cut_face(const Surface& surface, std::size_t face, const View& view, std::v
     }
     if (through.size() == 2) {
         lines.push_back({view.x(through[0]), view.y(through[0]), view.x(through[1]), view.y(through[1]), 0, 0.3});
+    }
+}
+
+void cut_face(const Surface& surface, std::size_t face, const View& view, std::vector<report::PictureLine>& lines) {
+    const SurfaceMesh& mesh = surface.geometry.mesh;
+    std::vector<Vec3> corners;
+    for (std::size_t k = 0; k < mesh.corners(face); ++k) {
+        corners.push_back(surface.to_space(mesh.at(face, k)));
+    }
+    cut_polygon(corners, view, lines);
+}
+
+// The same of a skin as it is.
+void cut_skin(const Skin& skin, const View& view, std::vector<report::PictureLine>& lines) {
+    for (std::size_t t = 0; t < skin.triangles(); ++t) {
+        const auto v = skin.geometry().corners(static_cast<std::uint32_t>(t));
+        cut_polygon({v.begin(), v.end()}, view, lines);
     }
 }
 
@@ -126,6 +142,9 @@ std::vector<report::Picture> scene_slices(const Model& m, const Vec3& gravity, c
             for (std::size_t f = 0; f < surface.geometry.mesh.faces(); ++f) {
                 cut_face(surface, f, view, p.lines);
             }
+        }
+        for (const auto& body : m.walls.bodies) {
+            cut_skin(body.skin, view, p.lines);
         }
         for (std::size_t k = 0; k < m.spheres.size(); ++k) {
             const Vec3 at = m.spheres.position.at(k);

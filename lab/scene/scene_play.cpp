@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/scene/scene_bodies.hpp"
 #include "lab/scene/scene_samples.hpp"
 #include "lab/scene/scene_surfaces.hpp"
 #include "lab/scene/vectors.hpp"
@@ -42,7 +43,8 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
 ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene), mean_radius_(mean_radius(feed_.kinds())) {
     const auto materials = materials_of(scene);
     auto surfaces = make_surfaces(scene, materials, notes_);
-    Population first = feed_.first(surfaces);
+    const Walls walls({}, std::move(surfaces), make_bodies(scene, materials, notes_));
+    Population first = feed_.first(walls);
     for (const auto& s : scene.surfaces) {
         motions_.push_back(make_motion(s.motion, scene.folder));
     }
@@ -50,8 +52,7 @@ ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene), mean_rad
     const auto set_up = [&] {
         std::vector<double> weight;
         Bonds none = make_bonds(first.spheres, materials, {}, std::vector<std::uint8_t>(first.spheres.size(), 0), weight);
-        model_ = std::make_unique<Model>(first.spheres, materials, std::move(none), std::move(weight), Walls({}, surfaces), numerics,
-                                         first.clusters);
+        model_ = std::make_unique<Model>(first.spheres, materials, std::move(none), std::move(weight), walls, numerics, first.clusters);
     };
     try {
         set_up();
@@ -79,6 +80,7 @@ void ScenePlay::step(bool measure) {
                             surface.name, way, model_->dt(), longest_way));
         }
     }
+    drive_bodies(scene_, model_->time(), model_->walls.bodies);
     model_->step({}, measure);
 }
 

@@ -50,10 +50,42 @@ std::vector<int> touches_of(const Model& m) {
             }
         }
     }
+    for (const auto& body : m.walls.bodies) {
+        for (const auto& block : body.touches) {
+            for (const auto& touch : block) {
+                out[particle_of(m, static_cast<std::size_t>(touch.sphere))] += touch.force.isZero() ? 0 : 1;
+            }
+        }
+    }
     return out;
 }
 
 constexpr const char* axes = "xyz";
+
+// What is told of a body at a sample.
+struct BodyState {
+    Vec3 centre = Vec3::Zero(); // of mass, m
+    double farthest = 0.0;      // way of a node from its start, m
+    double plastic = 0.0;       // largest plastic strain
+    double volume = 0.0;        // inside the skin, m3
+};
+
+BodyState state_of(const Deformable& body) {
+    BodyState s;
+    double mass = 0.0;
+    const Solid& solid = body.solid;
+    for (std::size_t k = 0; k < solid.nodes(); ++k) {
+        s.centre += solid.mass()[k] * solid.position[k];
+        mass += solid.mass()[k];
+        s.farthest = std::max(s.farthest, (solid.position[k] - solid.mesh().node[k]).norm());
+    }
+    s.centre /= mass;
+    for (const double strain : solid.plastic_strain()) {
+        s.plastic = std::max(s.plastic, strain);
+    }
+    s.volume = body.skin.geometry().mesh.volume();
+    return s;
+}
 
 } // namespace
 
@@ -111,6 +143,25 @@ report::Table empty_scene_curve(const Model& m) {
             }
         }
     }
+    for (const auto& b : m.walls.bodies) {
+        const std::string& name = b.solid.name;
+        for (int c = 0; c < 3; ++c) {
+            t.columns.push_back(
+                {fmt::format("{}_force_{}", name, axes[c]), "N", fmt::format("body {}: force of the particles on it", name)});
+        }
+        for (int c = 0; c < 3; ++c) {
+            t.columns.push_back({fmt::format("{}_at_{}", name, axes[c]), "m", fmt::format("body {}: its centre of mass", name)});
+        }
+        t.columns.push_back({name + "_farthest", "m", fmt::format("body {}: farthest way of a node from its start", name)});
+        t.columns.push_back({name + "_plastic_strain", "", fmt::format("body {}: largest accumulated plastic strain", name)});
+        t.columns.push_back({name + "_volume", "m3", fmt::format("body {}: inside its skin, if that is closed", name)});
+        for (const auto& hold : b.solid.holds) {
+            for (int c = 0; c < 3; ++c) {
+                t.columns.push_back(
+                    {fmt::format("{}_{}_{}", name, hold.name, axes[c]), "N", fmt::format("body {}: force on what holds it there", name)});
+            }
+        }
+    }
     return t;
 }
 
@@ -118,13 +169,16 @@ report::Table empty_scene_energy() {
     report::Table t;
     t.notes = {"Energy ledger: every term is accumulated from its own mechanism, none by difference."};
     t.columns = {{"time", "s", "since the start"},
-                 {"surfaces", "J", "work of moving surfaces on the particles"},
+                 {"surfaces", "J", "work of moving surfaces on the particles, and of what holds bodies"},
+                 {"pressure", "J", "work of pressures on bodies"},
                  {"gravity", "J", "work of gravity"},
                  {"initial", "J", "brought in by particles less taken out by those that left"},
-                 {"elastic", "J", "stored in contacts"},
+                 {"coupling", "J", "made, or taken out where negative, by sharing contact forces out over bodies"},
+                 {"elastic", "J", "stored in contacts and bodies"},
                  {"kinetic", "J", "of translation and rotation"},
+                 {"plastic", "J", "dissipated by plastic strain of bodies"},
                  {"friction", "J", "dissipated by sliding and rolling"},
-                 {"dashpots", "J", "dissipated by impact"},
+                 {"dashpots", "J", "dissipated by impact and by the damping of bodies"},
                  {"background", "J", "dissipated by background damping"},
                  {"residual", "J", "what was given minus all other terms"}};
     return t;
@@ -144,10 +198,19 @@ void sample_scene(const Model& m, const Feed& feed, report::Table& curve, report
             row.insert(row.end(), v.begin(), v.end());
         }
     }
+    for (const auto& body : m.walls.bodies) {
+        const BodyState b = state_of(body);
+        row.insert(row.end(), body.sums.reaction.begin(), body.sums.reaction.end());
+        row.insert(row.end(), b.centre.begin(), b.centre.end());
+        row.insert(row.end(), {b.farthest, b.plastic, b.volume});
+        for (const auto& hold : body.solid.holds) {
+            row.insert(row.end(), hold.reaction.begin(), hold.reaction.end());
+        }
+    }
     curve.rows.push_back(std::move(row));
     const Ledger& l = m.ledger();
-    energy.rows.push_back(
-        {m.time(), l.platens, l.body, l.initial, l.elastic, l.kinetic, l.friction, l.dashpots, l.background, l.residual()});
+    energy.rows.push_back({m.time(), l.platens, l.pressure, l.body, l.initial, l.coupling, l.elastic, l.kinetic, l.plastic, l.friction,
+                           l.dashpots, l.background, l.residual()});
 }
 
 BoxContent content_of(const OutletInput& box, const Model& m) {

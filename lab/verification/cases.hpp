@@ -24,6 +24,9 @@ Case multi_contact();
 Case sliding_to_rolling();
 Case brachistochrone();
 
+// Chapter 4
+Case circle_triangle();
+
 // Chapter 5
 Case regular_lattice();
 Case dempack_bond();

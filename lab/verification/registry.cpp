@@ -23,6 +23,8 @@ const std::vector<Case>& cases() {
         multi_contact(),
         sliding_to_rolling(),
         brachistochrone(),
+        // chapter 4
+        circle_triangle(),
         // chapter 5
         regular_lattice(),
         dempack_bond(),

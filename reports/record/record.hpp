@@ -81,13 +81,21 @@ struct PictureLine {
     double weight; ///< how wide the crack is, 0 to 1
 };
 
-/// A cut through a specimen.
+/// A facet of a surface seen from outside, in the plane of the picture, m.
+struct PictureFacet {
+    std::vector<std::pair<double, double>> corner;
+    double value; ///< 0 to 1 colours it
+    double light; ///< 0 to 1: how it faces the light
+};
+
+/// A cut through a specimen, or a view of it.
 struct Picture {
     std::string title;
     std::string caption;
     double width = 0.0, height = 0.0; ///< m
     std::vector<PictureDot> dots;
     std::vector<PictureLine> lines;
+    std::vector<PictureFacet> facets = {}; ///< drawn first, in their order
 };
 
 /// A table of texts with a heading.
