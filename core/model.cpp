@@ -50,7 +50,7 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     block_motion_.resize(loads.blocks().size());
     search();
     const bool short_step = numerics_.time_step && *numerics_.time_step <= stable_; // asked for, and stable with true masses
-    scaling_ = scale_masses(spheres, bonds, materials, weight_, contacts, walls, clusters, skin_,
+    scaling_ = scale_masses(spheres, bonds, materials, weight_, contacts, walls, clusters, growth(),
                             short_step || !clusters.empty() ? 0.0 : numerics_.mass_scaling, bound_);
     scaling_.step_before *= damping_share(numerics_.damping);
     scaling_.step_after *= damping_share(numerics_.damping);
@@ -77,7 +77,8 @@ void Model::step(const std::vector<double>& speeds, bool measure) {
             loads.add(k, (scaling_.mass[k] - spheres.mass[k]) * numerics_.gravity, Vec3::Zero());
         }
     }
-    forces(first ? 1e-9 * dt_ : dt_, measure || first);
+    // A search may have shortened the step: what moved did so during the last one.
+    forces(first ? 1e-9 * dt_ : last_dt_, measure || first);
     const auto loaded = Clock::now();
     motion(speeds, measure);
     const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
@@ -85,6 +86,7 @@ void Model::step(const std::vector<double>& speeds, bool measure) {
     phase_times_.forces += seconds(loaded - searched);
     phase_times_.motion += seconds(Clock::now() - loaded);
     time_ += dt_;
+    last_dt_ = dt_;
     ++steps_;
 }
 
@@ -130,6 +132,9 @@ void Model::search() {
     }
     search_anew_ = false;
     if (neighbours || surfaces) {
+        for (auto& body : walls.bodies) { // the bound looks at the skin as it is now
+            body.skin.follow(body.solid.position, body.solid.velocity, *team_);
+        }
         keep_stable(first);
     }
 }
@@ -251,7 +256,7 @@ void Model::forces(double elapsed, bool measure) {
     broken_ += failures_.size();
     for (auto& body : walls.bodies) {
         collect_node_loads(body);
-        body.crossings += body.sums.crossed;
+        body.crossings += static_cast<std::int64_t>(body.sums.crossed);
         ledger_.friction += body.sums.friction;
         ledger_.dashpots += body.sums.dashpot;
         ledger_.coupling += steps_ > 0 ? body.sums.made : 0.0; // what presses from the start is counted there
@@ -346,7 +351,7 @@ double Model::move_bodies(const std::vector<double>& speeds, bool measure) {
     double fastest = 0.0;
     bodies_kinetic_ = 0.0;
     for (auto& body : walls.bodies) {
-        const SolidSums sums = body.solid.move(*team_, dt_, steps_ == 0, numerics_.gravity, platens);
+        const SolidSums sums = body.solid.move(*team_, dt_, steps_ == 0, numerics_.gravity, platens, 0.5 * (last_dt_ + dt_));
         ledger_.platens += sums.held;
         ledger_.pressure += sums.pressure;
         ledger_.dashpots += sums.rayleigh;
@@ -363,7 +368,7 @@ double Model::move_bodies(const std::vector<double>& speeds, bool measure) {
 // Moves spheres, then clusters, part by part.
 MotionSums Model::move(bool measure) {
     const bool first = steps_ == 0;
-    const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity};
+    const MotionRule rule{numerics_.scheme, numerics_.damping, numerics_.gravity, 0.5 * (last_dt_ + dt_)};
     const auto& blocks = loads.blocks();
     const auto alone = static_cast<std::uint32_t>(clusters.alone(spheres));
     constexpr std::size_t bodies_per_part = 32;

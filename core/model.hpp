@@ -167,6 +167,7 @@ class Model {
     std::vector<double> platens_at_;
     double dt_ = 0.0;
     double first_dt_ = 0.0;
+    double last_dt_ = 0.0; // by which positions have come to where they are, s
     double stable_ = 0.0;
     double time_ = 0.0;
     std::int64_t steps_ = 0;
@@ -255,6 +256,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("travel", travel_.bound);
     visit("dt", dt_);
     visit("first_dt", first_dt_);
+    visit("last_dt", last_dt_);
     visit("stable", stable_);
     visit("time", time_);
     visit("steps", steps_);

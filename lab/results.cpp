@@ -285,7 +285,7 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
             fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when new contacts had made the specimen stiffer.",
                         bench.model->first_dt(), bench.model->dt()));
     }
-    if (bench.statistics.outside > 0) {
+    if (bonded && bench.statistics.outside > 0) {
         r.warnings.push_back(fmt::format("{} spheres reach beyond the specimen's nominal surface.", bench.statistics.outside));
     }
     if (deck.material.values.status == "provisional") {

@@ -276,7 +276,8 @@ void Work::press() {
             model.step({0.0, 0.0, -speed}, k == steps_per_look);
         }
         watch(model, size_ / fastest, 0.7, 1.0);
-    } while (rms_speed(model) > 2e-4 * speed_ || std::fabs(load - platen.load()) > 0.005 * load);
+        // Single stones may go on rocking; a thousandth of the speed that they came with moves them by no more than a test's own loading.
+    } while (rms_speed(model) > 1e-3 * speed_ || std::fabs(load - platen.load()) > 0.01 * load);
     height_ = platen.position;
     report_.pressure = plan_.pressure * platen.load() / load;
     keep(model);

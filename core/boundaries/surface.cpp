@@ -171,7 +171,8 @@ WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t nu
             const Vec3 velocity = surface.velocity_at(point);
             const Vec3 normal = surface.normal_at(contact, centre - point, distance);
             const Vec3 turning = 0.5 * normal.dot(surface.motion.spin + spheres.spin.at(s)) * normal;
-            const double way = (velocity - spheres.velocity.at(s)).norm() + spheres.spin.at(s).norm() * radius;
+            const double way =
+                (velocity - spheres.velocity.at(s)).norm() + (spheres.spin.at(s).norm() + surface.motion.spin.norm()) * radius;
             SurfaceTouch touch{surface.sphere[k], contact.face, contact.feature, contact.index, contact.point, {}, {}};
             const std::size_t before = nearest_touch(old, begin, end, contact.point, 1.01 * way * elapsed + 1e-9 * radius,
                                                      [](const SurfaceTouch& t) { return t.point; });

@@ -45,9 +45,11 @@ struct SphereOnNodes {
 struct Scratch {
     std::vector<FaceContact> found;
     std::vector<SlaveFace> slaves;
-    std::vector<Piece> piece;   // of each slave
-    std::vector<double> area;   // of each master
-    std::vector<SkinTouch> old; // of the block
+    std::vector<Piece> piece;          // of each slave
+    std::vector<double> area;          // of each master
+    std::vector<std::uint8_t> beyond;  // of each master: the centre is on the wrong side of it
+    std::vector<std::uint8_t> ignored; // of each master: seen through the body
+    std::vector<SkinTouch> old;        // of the block
     SphereOnNodes nodes;
 };
 
@@ -62,7 +64,7 @@ void share_areas(const Skin& skin, const Vec3& centre, double radius, Scratch& s
         const double height = plane.normal.dot(centre) - plane.offset;
         const double square = radius * radius - height * height;
         s.piece[k] = {};
-        if (square > 0.0) {
+        if (square > 0.0 && s.ignored[s.slaves[k].master] == 0) {
             const auto v = skin.geometry().corners(t);
             s.piece[k] = circle_triangle(centre - height * plane.normal, std::sqrt(square), v[0], v[1], v[2]);
         }
@@ -155,6 +157,19 @@ Vec3 outwards(const Skin& skin, const FaceContact& contact, const Vec3& centre, 
     return sum;
 }
 
+// Which contacts lie on the wrong side, and which of them do not count. Whether the centre has crossed the skin is told by the nearest
+// one. If it has not, what is seen from behind is the far side of a convex edge, whose rim stands out of the tangent plane where the near
+// side is dented: it faces away and cannot push.
+void find_sides(const Skin& skin, double side, const Vec3& centre, double radius, Scratch& s) {
+    s.beyond.assign(s.found.size(), 0);
+    s.ignored.assign(s.found.size(), 0);
+    for (std::size_t c = 0; c < s.found.size() && side != 0.0; ++c) {
+        const FaceContact& contact = s.found[c];
+        s.beyond[c] = side * (centre - contact.point).dot(outwards(skin, contact, centre, radius, s.slaves)) < 0.0;
+        s.ignored[c] = s.beyond[c] && !s.beyond[0];
+    }
+}
+
 LooseContact scaled(LooseContact c, double share) {
     c.k_n *= share;
     c.k_t *= share;
@@ -187,12 +202,16 @@ SkinSums deformable_forces(const Spheres& spheres, Deformable& body, std::size_t
         const bool by_area = body.coupling == Coupling::area_distributed;
         double_hierarchy(skin.geometry(), body.faces_near(k), centre, radius, s.found, &s.slaves);
         const std::size_t end = end_of_touches(s.old, begin, body.sphere[k]);
+        find_sides(skin, body.side, centre, radius, s);
         if (by_area) {
             share_areas(skin, centre, radius, s);
         }
         s.nodes.clear();
         Vec3 torque = Vec3::Zero();
         for (std::uint32_t c = 0; c < s.found.size(); ++c) {
+            if (s.ignored[c] != 0) {
+                continue;
+            }
             const FaceContact& contact = s.found[c];
             const Vec3 face_normal = skin.geometry().plane[contact.face].normal;
             SkinTouch touch{body.sphere[k], contact.face, skin.coordinates(contact.face, contact.point), {}};
@@ -201,7 +220,7 @@ SkinSums deformable_forces(const Spheres& spheres, Deformable& body, std::size_t
             double distance = std::sqrt(contact.square);
             Vec3 normal = distance > 0.0 ? Vec3((centre - contact.point) / distance) : face_normal;
             // Whether the centre has crossed the skin.
-            if (body.side != 0.0 && body.side * normal.dot(outwards(skin, contact, centre, radius, s.slaves)) < 0.0) {
+            if (s.beyond[c] != 0) {
                 normal = -normal;
                 distance = -distance;
                 ++sum.crossed;

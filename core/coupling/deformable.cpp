@@ -6,6 +6,14 @@
 
 namespace proveta {
 
+namespace {
+
+double mean_node_mass(const Solid& solid) {
+    return std::accumulate(solid.mass().begin(), solid.mass().end(), 0.0) / static_cast<double>(solid.nodes());
+}
+
+} // namespace
+
 Deformable::Deformable(Solid body, const Material& surface, double friction_coefficient, Coupling how, double on_side)
     : solid(std::move(body)), skin(skin_of(solid.mesh()), solid.position), material(surface), friction(friction_coefficient), coupling(how),
       side(on_side), listed_at(solid.position) {}
@@ -102,6 +110,16 @@ void search_deformable(const Spheres& spheres, const std::vector<Material>& mate
 
 void set_up_deformable(const Spheres& spheres, const std::vector<Material>& materials, Deformable& body) {
     body.law = wall_contacts(spheres, materials, body.material, body.friction, body.sphere);
+    if (!body.solid.mesh().membranes.empty()) {
+        // A sphere that meets a sheet swings against the few nodes there, not against a wall: dashpots go with the root of the reduced
+        // mass.
+        const double node = mean_node_mass(body.solid);
+        for (std::size_t k = 0; k < body.law.size(); ++k) {
+            const double lighter = std::sqrt(node / (node + spheres.mass[static_cast<std::size_t>(body.sphere[k])]));
+            body.law[k].c_n *= lighter;
+            body.law[k].c_t *= lighter;
+        }
+    }
     body.touches.resize(blocks_of(spheres.size()));
     body.loads.resize(blocks_of(spheres.size()));
 }
@@ -114,11 +132,7 @@ void collect_node_loads(Deformable& body) {
     }
 }
 
-double sphere_share(const Deformable& body, double sphere_mass) {
-    const auto& mass = body.solid.mass();
-    const double node = std::accumulate(mass.begin(), mass.end(), 0.0) / static_cast<double>(mass.size());
-    return 1.0 + std::sqrt(sphere_mass / node);
-}
+double sphere_share(const Deformable& body, double sphere_mass) { return 1.0 + std::sqrt(sphere_mass / mean_node_mass(body.solid)); }
 
 namespace {
 

@@ -27,7 +27,7 @@ double kick(Vec3& momentum, const Vec3& load, const Vec3& velocity, double alpha
 MotionSums move_clusters(Clusters& clusters, Spheres& spheres, Loads& loads, std::size_t begin, std::size_t end, const MotionRule& rule,
                          double dt, bool first, bool measure) {
     MotionSums sums;
-    const double kick_dt = first ? 0.5 * dt : dt;
+    const double kick_dt = first ? 0.5 * dt : rule.kick > 0.0 ? rule.kick : dt;
     for (std::size_t body = begin; body < end; ++body) {
         const double mass = clusters.mass[body];
         rotation::State& turning = clusters.turning[body];

@@ -23,7 +23,7 @@ MotionSums move_spheres(Spheres& s, Loads& loads, const SphereBlock& block, cons
     const bool half_behind = rule.scheme == Scheme::velocity_verlet;
     MotionStep step{};
     step.dt = dt;
-    step.kick_dt = half_behind && first ? 0.5 * dt : dt;
+    step.kick_dt = !half_behind ? dt : first ? 0.5 * dt : rule.kick > 0.0 ? rule.kick : dt;
     step.newer = half_behind && !first ? 0.5 : 0.0;
     for (int c = 0; c < 3; ++c) {
         step.gravity[c] = rule.gravity[c];

@@ -12,6 +12,7 @@ struct MotionRule {
     Scheme scheme = Scheme::velocity_verlet;
     BackgroundDamping damping;
     Vec3 gravity = Vec3::Zero(); ///< m/s2
+    double kick = 0.0;           ///< of the velocities of velocity Verlet, s: half the last step and half this one; 0: as the positions
 };
 
 /// Moves one block of spheres: collects its loads, applies gravity and damping, advances velocities and positions by dt seconds and empties

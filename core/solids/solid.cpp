@@ -206,10 +206,10 @@ void Solid::set_up_holds() {
     }
 }
 
-SolidSums Solid::move(Team& team, double dt, bool first, const Vec3& gravity, const std::vector<Vec3>& platens) {
+SolidSums Solid::move(Team& team, double dt, bool first, const Vec3& gravity, const std::vector<Vec3>& platens, double kick_time) {
     set_up_holds();
     press(pressing_);
-    const double kick = first ? 0.5 * dt : dt;
+    const double kick = first ? 0.5 * dt : kick_time > 0.0 ? kick_time : dt;
     std::vector<Vec3> given;
     for (const auto& hold : holds) {
         given.push_back(hold.platen >= 0 ? platens[static_cast<std::size_t>(hold.platen)] : hold.velocity);

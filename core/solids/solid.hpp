@@ -65,8 +65,8 @@ class Solid {
     /// Forces of the elements at the positions now. Plastic strains advance: once a step.
     void forces(Team& team);
     /// Moves the nodes by dt seconds. first: velocities are those of the positions' time. platens: velocity of each along its axis, as
-    /// vectors, m/s.
-    SolidSums move(Team& team, double dt, bool first, const Vec3& gravity, const std::vector<Vec3>& platens);
+    /// vectors, m/s. kick: as `MotionRule::kick`.
+    SolidSums move(Team& team, double dt, bool first, const Vec3& gravity, const std::vector<Vec3>& platens, double kick = 0.0);
 
     /// What the elements ask of each node: stiffness and damping over its mass, such that stiffness dt^2 + 2 damping dt <= 4 is stable.
     /// Of the reference each element's highest frequency is exact; it is taken to grow with the element's deformation as a bound on it

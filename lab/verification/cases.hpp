@@ -26,6 +26,11 @@ Case brachistochrone();
 
 // Chapter 4
 Case circle_triangle();
+Case membrane_balloon();
+Case beam_impact();
+Case adm_vs_direct();
+Case pendulum_energy();
+Case pendulum_energy_long();
 
 // Chapter 5
 Case regular_lattice();

@@ -25,6 +25,11 @@ const std::vector<Case>& cases() {
         brachistochrone(),
         // chapter 4
         circle_triangle(),
+        membrane_balloon(),
+        beam_impact(),
+        adm_vs_direct(),
+        pendulum_energy(),
+        pendulum_energy_long(),
         // chapter 5
         regular_lattice(),
         dempack_bond(),
