@@ -44,7 +44,8 @@ Bench set_up(const Deck& deck, Specimen specimen) {
         bench.press =
             deck.protocol->press({network.spheres, network.bonds, bench.specimen.shape, network.materials, bench.grain, bench.wave_speed});
     } catch (const std::invalid_argument& e) {
-        fail("/specimen", e.what(), "a specimen that fits this test's machine", "ask for more spheres");
+        fail("/specimen", e.what(), "a specimen that fits this test's machine",
+             "ask for more spheres, or for a round specimen where there is a membrane");
     }
     for (std::size_t p = 0; p < 2 && !granular; ++p) {
         const auto& platen = bench.press.platens[p];

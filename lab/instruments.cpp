@@ -142,6 +142,8 @@ report::Table Instruments::empty_energy() const {
                  {"axial_strain", "", "closing of the platens over their distance at the start"},
                  {"platens", "J", "work of the platens on the specimen"},
                  {"pressure", "J", "work of the pressure on its side"},
+                 {"gravity", "J", "work of gravity"},
+                 {"initial", "J", "kinetic and stored energy at the start"},
                  {"coupling", "J", "made, or taken out where negative, by sharing contact forces out over a membrane"},
                  {"elastic", "J", "stored in bonds, contacts and membrane"},
                  {"kinetic", "J", "of translation and rotation"},
@@ -150,7 +152,7 @@ report::Table Instruments::empty_energy() const {
                  {"friction", "J", "dissipated by sliding"},
                  {"dashpots", "J", "dissipated by local damping"},
                  {"background", "J", "dissipated by background damping"},
-                 {"residual", "J", "work minus all other terms"}};
+                 {"residual", "J", "the first five terms minus all others"}};
     return t;
 }
 
@@ -214,8 +216,8 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
         }
     }
     const Ledger& l = m.ledger();
-    energy.rows.push_back({m.time(), strain, l.platens, l.pressure, l.coupling, l.elastic, l.kinetic, l.damage, l.plastic, l.friction,
-                           l.dashpots, l.background, l.residual()});
+    energy.rows.push_back({m.time(), strain, l.platens, l.pressure, l.body, l.initial, l.coupling, l.elastic, l.kinetic, l.damage,
+                           l.plastic, l.friction, l.dashpots, l.background, l.residual()});
 }
 
 } // namespace proveta

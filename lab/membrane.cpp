@@ -31,8 +31,12 @@ Deformable make_membrane(const MembraneInput& in, const Wrapped& wrapped) {
         throw std::invalid_argument("a membrane around a specimen that is not round");
     }
     const double edge = in.element.word.empty() ? in.element.number : wrapped.grain;
-    const double radius = 0.5 * shape.diameter;
-    const int around = std::max(12, static_cast<int>(std::lround(2.0 * std::numbers::pi * radius / edge)));
+    double reach = 0.5 * shape.diameter;
+    for (std::size_t k = 0; k < wrapped.spheres.size(); ++k) {
+        reach = std::max(reach, std::hypot(wrapped.spheres.position.x[k], wrapped.spheres.position.y[k]) + wrapped.spheres.radius[k]);
+    }
+    const int around = std::max(12, static_cast<int>(std::lround(2.0 * std::numbers::pi * reach / edge)));
+    const double radius = reach / std::cos(std::numbers::pi / around);              // its facets just touch
     const double high = std::sqrt(0.75) * 2.0 * std::numbers::pi * radius / around; // of an equilateral triangle
     const int layers = std::max(4, static_cast<int>(std::lround(shape.height / high)));
     SolidMaterial rubber;
@@ -75,15 +79,20 @@ double middle_radius(const Deformable& membrane) {
     for (const auto& p : start) {
         top = std::max(top, p.z());
     }
+    double nearest = top; // ring to the middle
+    for (const auto& p : start) {
+        nearest = std::min(nearest, std::fabs(p.z() - 0.5 * top));
+    }
+    const double window = std::max(top / 12.0, nearest) * (1.0 + 1e-9);
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t k = 0; k < start.size(); ++k) {
-        if (std::fabs(start[k].z() - 0.5 * top) <= top / 12.0 * (1.0 + 1e-9)) {
+        if (std::fabs(start[k].z() - 0.5 * top) <= window) {
             sum += std::hypot(membrane.solid.position[k].x(), membrane.solid.position[k].y());
             count += 1.0;
         }
     }
-    return count > 0.0 ? sum / count : 0.0;
+    return sum / count;
 }
 
 double axial_force(const Deformable& membrane) {

@@ -3,6 +3,7 @@
 
 #include "core/coupling/deformable.hpp"
 #include "core/input/declare.hpp"
+#include "core/particles/spheres.hpp"
 #include "specimens/shape.hpp"
 
 namespace proveta {
@@ -24,6 +25,7 @@ void declare(input::Visitor& v, MembraneInput& membrane);
 /// What the membrane is wrapped around.
 struct Wrapped {
     const Shape& shape;      ///< a cylinder
+    const Spheres& spheres;  ///< that it is wrapped around, touching at most
     double grain = 0.0;      ///< mean size of what presses against it, m
     double crossing = 0.0;   ///< time in which a wave crosses the specimen, s
     const Material& surface; ///< that contacts are reckoned with: the grains' own, as the rubber's own stiffness is in its elements

@@ -200,6 +200,9 @@ Network make_network(const Deck& deck, const Specimen& specimen, const SpecimenS
     const auto fail = [&](const std::string& path, const std::string& found, const std::string& expected, const std::string& hint = "") {
         throw input::InputError({{deck.source, path, found, expected, hint}});
     };
+    if (!specimen.stones.empty()) {
+        fail("/specimen", fmt::format("{} loose stones", specimen.stones.size()), "spheres to be bonded");
+    }
     out.spheres = make_spheres(specimen, deck, out.materials);
     // Skin flags belong to the specimen's order; bring them into the model's.
     const auto flags = skin_spheres(specimen);

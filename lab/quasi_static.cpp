@@ -105,6 +105,23 @@ std::vector<report::Scalar> rate_results(const report::Table& curve, double sens
             {"highest_rate", "Highest rate", highest, "m/s", range}};
 }
 
+std::string coupling_warning(const report::Table& energy) {
+    constexpr double most = 0.02;
+    if (energy.rows.empty()) {
+        return "";
+    }
+    const auto& last = energy.rows.back();
+    double scale = 0.0; // the largest term
+    for (std::size_t c = 1; c < last.size(); ++c) {
+        scale = energy.columns[c].unit == "J" ? std::max(scale, std::fabs(last[c])) : scale;
+    }
+    const double made = last[energy.column("coupling")];
+    return std::fabs(made) <= most * scale ? ""
+                                           : fmt::format("Sharing contact forces out over bodies {} {:.2g} % of the largest energy: finer "
+                                                         "meshes or stiffer contacts make it less.",
+                                                         made > 0.0 ? "made" : "took", 100.0 * std::fabs(made) / scale);
+}
+
 report::Badge energy_verdict(const report::Table& energy) {
     report::Badge badge{"Energy balance", false, "", {}};
     if (energy.rows.empty()) {

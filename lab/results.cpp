@@ -267,6 +267,9 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
                             bench.dropped, 100.0 * bench.laguerre->unbonded_share));
         }
     }
+    if (const std::string made = coupling_warning(data.energy); !made.empty()) {
+        r.warnings.push_back(made);
+    }
     for (const auto& body : bench.model->walls.bodies) {
         if (body.crossings > 0) {
             r.warnings.push_back(fmt::format("The membrane leaked: {} contacts of particles whose centre lay beyond it.", body.crossings));

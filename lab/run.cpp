@@ -68,8 +68,12 @@ void save(const Deck& deck, const Bench& bench, const OutputFolder& out) {
 }
 
 void log_set_up(const Bench& bench, double seconds, const RunWatch& watch) {
-    watch.log(fmt::format("{} bonds, {:.2f} a sphere; step {:.3g} s of at most {:.3g} s; set up in {:.1f} s", bench.model->bonds.size(),
-                          bench.coordination, bench.model->dt(), bench.model->stable_step(), seconds));
+    const std::string matter =
+        bench.model->bonds.size() > 0
+            ? fmt::format("{} bonds, {:.2f} a sphere", bench.model->bonds.size(), bench.coordination)
+            : fmt::format("{} loose spheres in {} stones", bench.model->spheres.size(), bench.model->clusters.size());
+    watch.log(fmt::format("{}; step {:.3g} s of at most {:.3g} s; set up in {:.1f} s", matter, bench.model->dt(),
+                          bench.model->stable_step(), seconds));
     for (const auto& calibration : bench.calibrations) {
         watch.log(fmt::format("elasticity of {}: {}", calibration.name, text_of(calibration.result)));
     }
@@ -152,7 +156,8 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     };
     Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source,
                                         [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
-    log(fmt::format("specimen of {} spheres ready after {:.1f} s", specimen.size(), since(clock)));
+    log(fmt::format("specimen of {} {} ready after {:.1f} s", specimen.size(), specimen.stones.empty() ? "spheres" : "stones",
+                    since(clock)));
     const auto show = [&](const std::string& phase, const std::string& figures, double) {
         progress.show(phase == "loading" ? figures : phase + ": " + figures);
     };

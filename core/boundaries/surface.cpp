@@ -81,7 +81,7 @@ Surface::Flat Surface::flattened() const {
         for (const auto& t : block) {
             flat.touches.insert(flat.touches.end(),
                                 {t.sphere, static_cast<std::int32_t>(t.face), static_cast<std::int32_t>(t.feature), t.index});
-            for (const Vec3& v : {t.point, t.history.slip, t.history.viscous}) {
+            for (const Vec3& v : {t.point, t.history.slip, t.history.viscous, t.force}) {
                 flat.values.insert(flat.values.end(), v.begin(), v.end());
             }
         }
@@ -112,9 +112,9 @@ void Surface::restore(const Flat& flat) {
              static_cast<std::uint32_t>(t[1]),
              static_cast<Feature>(t[2]),
              static_cast<std::uint8_t>(t[3]),
-             vector(flat.values, 3 * k),
-             {vector(flat.values, 3 * k + 1), vector(flat.values, 3 * k + 2)},
-             Vec3::Zero()});
+             vector(flat.values, 4 * k),
+             {vector(flat.values, 4 * k + 1), vector(flat.values, 4 * k + 2)},
+             vector(flat.values, 4 * k + 3)});
     }
 }
 

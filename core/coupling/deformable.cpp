@@ -64,7 +64,7 @@ Deformable::Flat Deformable::flattened() const {
     for (const auto& block : touches) {
         for (const auto& t : block) {
             flat.touches.insert(flat.touches.end(), {t.sphere, static_cast<std::int32_t>(t.triangle)});
-            for (const Vec3& v : {t.at, t.history.slip, t.history.viscous}) {
+            for (const Vec3& v : {t.at, t.history.slip, t.history.viscous, t.force, t.point}) {
                 flat.values.insert(flat.values.end(), v.begin(), v.end());
             }
             flat.values.push_back(t.stored);
@@ -94,6 +94,8 @@ void Deformable::restore(const Flat& flat) {
         SkinTouch t{flat.touches[2 * k], static_cast<std::uint32_t>(flat.touches[2 * k + 1]), vector(), {}};
         t.history.slip = vector();
         t.history.viscous = vector();
+        t.force = vector();
+        t.point = vector();
         t.stored = *value++;
         touches[static_cast<std::size_t>(t.sphere) / spheres_per_block].push_back(t);
     }

@@ -8,6 +8,7 @@
 #include "lab/cli/commands.hpp"
 #include "lab/deck.hpp"
 #include "lab/progress.hpp"
+#include "lab/protocols/registry.hpp"
 #include "specimens/import.hpp"
 #include "specimens/statistics.hpp"
 #include "specimens/storage.hpp"
@@ -88,13 +89,20 @@ void add_make(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& cho
         chosen = [a] {
             use_threads(a->threads);
             input::Json json = input::Json::object();
+            std::unique_ptr<Protocol> test;
             if (!a->deck.empty()) {
                 const auto deck = input::load_json(a->deck);
+                if (deck.is_object() && deck.contains("test") && deck["test"].is_string()) {
+                    test = make_protocol(deck["test"].get<std::string>());
+                }
                 json = deck.contains("specimen") ? deck["specimen"] : input::Json::object();
             }
             apply_settings(json, a->settings);
             const bool granular = json.is_object() && json.contains("particles"); // which only such recipes have
             SpecimenRecipe recipe = granular ? granular_recipe() : SpecimenRecipe{};
+            if (test) {
+                test->suggest(recipe);
+            }
             input::Problems problems;
             const std::string source = a->deck.empty() ? "recipe" : a->deck;
             input::read(json, recipe, source, "", problems);

@@ -52,6 +52,7 @@ class GranularTriaxial : public Protocol {
         recipe.matter = "granular";
         recipe.diameter = 0.3;
         recipe.height = 0.6;
+        recipe.particles.filling_friction = 0.2; // a bed about as dense as compacted ballast, some 40 % of voids
     }
     [[nodiscard]] std::string card() const override { return "ballast"; }
     [[nodiscard]] bool granular() const override { return true; }
@@ -62,7 +63,7 @@ class GranularTriaxial : public Protocol {
         v.number_or_word("rate", rate_.rate,
                          {{"auto", "so slow that the inertial number is a thousandth: grains move little while one falls into its place"}},
                          input::Unit::velocity, {0.0, 10.0, true, false}, "speed at which the platens approach, each moving at half of it");
-        v.number_or_word("ramp", rate_.ramp, {{"auto", "the time in which a wave crosses the specimen ten times"}}, input::Unit::time,
+        v.number_or_word("ramp", rate_.ramp, {{"auto", "the time in which a wave crosses the specimen twenty times"}}, input::Unit::time,
                          input::at_least(0), "time in which the platens reach their speed");
         v.choice("rate_check", rate_.check,
                  {{"off", "the verdict says that the rate was not checked"},
@@ -97,7 +98,7 @@ class GranularTriaxial : public Protocol {
     [[nodiscard]] Press press(const InPress& body) const override {
         Press press;
         const Material& stone = body.materials.front();
-        // The platens just touch: the bed's overlaps with those that it was pressed by are of other moduli.
+        // The platens just touch, as the membrane does: the bed's overlaps with what it was pressed by are of other moduli.
         double low = body.shape.height;
         double high = 0.0;
         for (std::size_t k = 0; k < body.spheres.size(); ++k) {
@@ -110,7 +111,8 @@ class GranularTriaxial : public Protocol {
         press.area = body.shape.section();
         press.area_now = true;
         press.inner = body.shape.inner(0.6, 0.6);
-        press.bodies.push_back(make_membrane(membrane_, {body.shape, 0.4 * body.grain, body.shape.height / body.wave_speed, stone}));
+        press.bodies.push_back(
+            make_membrane(membrane_, {body.shape, body.spheres, 0.4 * body.grain, body.shape.height / body.wave_speed, stone}));
         return press;
     }
 

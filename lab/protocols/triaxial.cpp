@@ -59,8 +59,8 @@ class Triaxial : public Protocol {
     [[nodiscard]] Press press(const InPress& body) const override {
         Press press = axial_press(body.spheres, body.shape, friction_value(friction_), 1.0);
         if (confined_by_ == "membrane") {
-            press.bodies.push_back(
-                make_membrane(membrane_, {body.shape, 2.0 * body.grain, body.shape.height / body.wave_speed, body.materials.front()}));
+            press.bodies.push_back(make_membrane(
+                membrane_, {body.shape, body.spheres, 2.0 * body.grain, body.shape.height / body.wave_speed, body.materials.front()}));
         } else {
             press.pressures = {lateral_pressure(body.shape, body.spheres, body.bonds)};
         }

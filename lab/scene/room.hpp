@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <unordered_map>
 #include <vector>
 
@@ -74,6 +75,9 @@ class Room {
             if (std::any_of(faces.begin(), faces.end(), [&](auto face) { return cuts(skin, face, centre, radius); })) {
                 return false;
             }
+            if (walls_.bodies[b].side > 0.0 && trees_[b].box().contains(centre) && inside(skin, centre)) {
+                return false;
+            }
         }
         return true;
     }
@@ -83,6 +87,21 @@ class Room {
         Vec3 centre;
         double radius;
     };
+    // Of a closed skin: by the solid angles that its triangles take up, 4 pi inside and 0 outside (A. van Oosterom and J. Strackee, IEEE
+    // Trans. Biomed. Eng. 30 (1983) 125).
+    static bool inside(const SurfaceGeometry& skin, const Vec3& point) {
+        double half_angles = 0.0;
+        for (std::uint32_t t = 0; t < skin.plane.size(); ++t) {
+            const auto v = skin.corners(t);
+            const Vec3 a = v[0] - point;
+            const Vec3 b = v[1] - point;
+            const Vec3 c = v[2] - point;
+            half_angles += std::atan2(a.dot(b.cross(c)),
+                                      a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() + b.dot(c) * a.norm() + c.dot(a) * b.norm());
+        }
+        return half_angles > std::numbers::pi;
+    }
+
     using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
     [[nodiscard]] Cell cell_of(const Vec3& at) const { return (at / cell_).array().floor().cast<std::int64_t>().matrix(); }

@@ -179,10 +179,14 @@ void hold(const BodyInput& b, const std::string& source, const std::string& at, 
     for (std::size_t k = 0; k < b.holds.size(); ++k) {
         const HoldInput& h = b.holds[k];
         NodeHold out;
-        out.name = h.group.empty() ? fmt::format("hold {}", k + 1) : h.group;
+        out.name = h.group.empty() ? fmt::format("hold_{}", k + 1) : h.group;
         for (std::size_t c = 0; c < 3; ++c) {
             out.axes[c] = h.axes.find("xyz"[c]) != std::string::npos;
         }
+        const auto same = std::count_if(solid.holds.begin(), solid.holds.end(), [&](const NodeHold& other) {
+            return other.name == out.name || other.name.rfind(out.name + "_", 0) == 0;
+        });
+        out.name += same > 0 ? fmt::format("_{}", same + 1) : "";
         out.velocity = vector(h.velocity);
         out.node = held_nodes(h, solid.mesh(), source, fmt::format("{}/holds/{}", at, k), problems);
         solid.holds.push_back(std::move(out));
@@ -260,6 +264,14 @@ void drive_bodies(const Scene& scene, double time, std::vector<Deformable>& bodi
             pressures[p].value = in.pressure * (in.ramp > 0.0 ? smooth_start(time, in.ramp) : 1.0);
         }
     }
+}
+
+bool still_driven(const Deformable& body, double time, const Scene& scene, std::size_t number) {
+    const BodyInput& in = scene.bodies[number];
+    const bool held = std::any_of(in.holds.begin(), in.holds.end(), [](const HoldInput& h) { return !vector(h.velocity).isZero(); });
+    const bool pressed = std::any_of(in.pressures.begin(), in.pressures.end(), [&](const BodyPressureInput& p) { return time < p.ramp; });
+    const auto& v = body.solid.velocity;
+    return held || pressed || std::any_of(v.begin(), v.end(), [&](const Vec3& node) { return node.norm() > scene.stop.rest; });
 }
 
 void check_body(const BodyInput& b, const std::string& source, const std::string& at, input::Problems& problems) {

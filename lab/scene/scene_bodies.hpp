@@ -15,6 +15,9 @@ std::vector<Deformable> make_bodies(const Scene& scene, const std::vector<Materi
 /// Sets what bodies are under at a time: pressures on their ramps.
 void drive_bodies(const Scene& scene, double time, std::vector<Deformable>& bodies);
 
+/// Whether a body is still held with a velocity, brought under pressure or moving faster than the scene calls rest. number: in the scene.
+bool still_driven(const Deformable& body, double time, const Scene& scene, std::size_t number);
+
 /// What a body's keys contradict. at: its path.
 void check_body(const BodyInput& body, const std::string& source, const std::string& at, input::Problems& problems);
 

@@ -34,6 +34,12 @@ class Check {
         unique("materials", scene_.materials);
         unique("surfaces", scene_.surfaces);
         unique("bodies", scene_.bodies);
+        for (std::size_t k = 0; k < scene_.bodies.size(); ++k) {
+            const std::string& name = scene_.bodies[k].name;
+            if (std::any_of(scene_.surfaces.begin(), scene_.surfaces.end(), [&](const auto& s) { return s.name == name; })) {
+                say(fmt::format("/bodies/{}/name", k), "\"" + name + "\", which a surface has", "a name of its own");
+            }
+        }
         unique("particles", scene_.particles);
         unique("outlets", scene_.outlets);
         unique("measures", scene_.measures);

@@ -74,6 +74,13 @@ report::Geometry particle_fields(const Model& m) {
             }
         }
     }
+    for (const auto& body : m.walls.bodies) {
+        for (const auto& block : body.touches) {
+            for (const auto& touch : block) {
+                force.add(static_cast<std::size_t>(touch.sphere), touch.force);
+            }
+        }
+    }
     g.point_arrays = {{"radius", 1, m.spheres.radius},
                       {"velocity", 3, report::interleaved(m.spheres.velocity)},
                       {"spin", 3, report::interleaved(m.spheres.spin)},

@@ -31,7 +31,7 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
     n.time_step = in.time_step.word.empty() ? in.time_step.number : in.safety * stable_step(feed.kinds(), materials, in.largest_overlap);
     n.skin = in.skin.word.empty() ? in.skin.number : 0.2;
     n.damping = {in.damping, in.damping};
-    n.refuse_unstable = in.above_bound == "refuse";
+    n.refuse_unstable = in.above_bound == "refuse" || !in.time_step.word.empty();
     n.fastest = longest_way; // who is flung out of a pinch is no failure
     n.gravity = vector(scene.gravity);
     n.overlap_growth = in.largest_overlap * mean_radius(feed.kinds());
@@ -122,10 +122,13 @@ std::string ScenePlay::over() const {
     const bool moving = std::any_of(model_->walls.surfaces.begin(), model_->walls.surfaces.end(), [&](const Surface& s) {
         return s.drive.velocity.norm() > scene_.stop.rest || s.drive.spin.norm() * s.reach() > scene_.stop.rest;
     });
+    const bool pushed = std::any_of(model_->walls.bodies.begin(), model_->walls.bodies.end(), [&](const Deformable& b) {
+        return still_driven(b, model_->time(), scene_, static_cast<std::size_t>(&b - model_->walls.bodies.data()));
+    });
     const SceneState state = state_of(*model_);
     // Before anything has fallen everything rests.
     const bool began = model_->time() > 0.02 * scene_.stop.time;
-    return !moving && began && state.rms_speed < scene_.stop.rest
+    return !moving && !pushed && began && state.rms_speed < scene_.stop.rest
                ? fmt::format("at rest: root mean square speed below {:.3g} m/s", scene_.stop.rest)
                : "";
 }

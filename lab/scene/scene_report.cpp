@@ -8,6 +8,7 @@
 
 #include "core/parallel/instruction_set.hpp"
 #include "lab/provenance.hpp"
+#include "lab/quasi_static.hpp"
 #include "lab/results.hpp"
 
 namespace proveta {
@@ -163,6 +164,15 @@ report::Record scene_record(const Scene& scene, const ScenePlay& play, const Sce
         if (!badge.good) {
             r.warnings.push_back(badge.name + ": " + badge.verdict + ".");
         }
+    }
+    for (const auto& body : play.model().walls.bodies) {
+        if (body.crossings > 0) {
+            r.warnings.push_back(
+                fmt::format("{}: {} contacts of particles whose centre had got beyond its skin.", body.solid.name, body.crossings));
+        }
+    }
+    if (const std::string made = coupling_warning(seen.energy); !made.empty()) {
+        r.warnings.push_back(made);
     }
     for (const auto& count : play.feed().counts()) {
         if (count.left_out > 0) {
