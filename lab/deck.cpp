@@ -189,8 +189,10 @@ Json resolved(const Deck& deck) {
     declare(static_cast<input::Visitor&>(writer), const_cast<Deck&>(deck));
     Json json = writer.take();
     json["material"]["card"] = custom_card;
-    for (auto& region : json["regions"]) {
-        region["material"]["card"] = custom_card;
+    if (json.contains("regions")) {
+        for (auto& region : json["regions"]) {
+            region["material"]["card"] = custom_card;
+        }
     }
     if (!deck.specimen.file.empty()) {
         json["specimen"] = {

@@ -269,17 +269,21 @@ void Work::press() {
     const double plate = 0.1 * mass_;
     const double fastest = 0.05 * speed_;
     const Platen& platen = model.walls.platens.back();
-    double speed = 0.0; // downwards
+    const double slowing = 10.0 * gravity / speed_; // viscous, 1/s, so that the plate does not go on swinging on the bed
+    double speed = 0.0;                             // downwards
+    double carried = 0.0;                           // mean load since the last look, N
     do {
+        carried = 0.0;
         for (int k = 1; k <= steps_per_look; ++k) {
-            speed = std::clamp(speed + (load - platen.load()) / plate * model.dt(), -fastest, fastest);
+            speed = std::clamp(speed + ((load - platen.load()) / plate - slowing * speed) * model.dt(), -fastest, fastest);
             model.step({0.0, 0.0, -speed}, k == steps_per_look);
+            carried += platen.load() / steps_per_look;
         }
         watch(model, size_ / fastest, 0.7, 1.0);
-        // Single stones may go on rocking; a thousandth of the speed that they came with moves them by no more than a test's own loading.
-    } while (rms_speed(model) > 1e-3 * speed_ || std::fabs(load - platen.load()) > 0.01 * load);
+        // Single stones may go on rocking, by less than a test will move them.
+    } while (rms_speed(model) > 5e-4 * speed_ || std::fabs(load - carried) > 0.005 * load);
     height_ = platen.position;
-    report_.pressure = plan_.pressure * platen.load() / load;
+    report_.pressure = plan_.pressure * carried / load;
     keep(model);
 }
 
