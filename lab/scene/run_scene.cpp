@@ -44,7 +44,7 @@ Json manifest_of(const Scene& scene, const RunOptions& options, const std::strin
 class Performance {
   public:
     Performance(const Scene& scene, ScenePlay& play, const OutputFolder& out, Progress& progress)
-        : scene_(scene), play_(play), out_(out), progress_(progress), stage_(stage_of(scene, play.model().walls.surfaces)) {
+        : scene_(scene), play_(play), out_(out), progress_(progress), stage_(stage_of(scene, play.model().walls)) {
         seen_.curve = empty_scene_curve(play.model());
         seen_.energy = empty_scene_energy();
     }

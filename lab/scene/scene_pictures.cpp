@@ -112,7 +112,7 @@ report::Geometry surface_fields(const Model& m) {
     return g;
 }
 
-Eigen::AlignedBox3d stage_of(const Scene& scene, const std::vector<Surface>& surfaces) {
+Eigen::AlignedBox3d stage_of(const Scene& scene, const Walls& walls) {
     Eigen::AlignedBox3d regions;
     for (const auto& p : scene.particles) {
         regions.extend(box_of(p));
@@ -122,8 +122,16 @@ Eigen::AlignedBox3d stage_of(const Scene& scene, const std::vector<Surface>& sur
             regions.extend(box_of(region));
         }
     }
+    for (const auto& body : walls.bodies) {
+        Eigen::AlignedBox3d own;
+        for (const Vec3& v : body.solid.position) {
+            own.extend(v);
+        }
+        const Vec3 give = Vec3::Constant(0.15 * own.diagonal().norm()); // it will yield
+        regions.extend(own.min() - give).extend(own.max() + give);
+    }
     Eigen::AlignedBox3d stage = regions;
-    for (const auto& surface : surfaces) {
+    for (const auto& surface : walls.surfaces) {
         for (const auto& v : surface.geometry.mesh.vertex) {
             stage.extend(surface.to_space(v));
         }

@@ -42,8 +42,8 @@ BoxContent content_of(const OutletInput& box, const Model& model);
 report::Geometry particle_fields(const Model& model);
 report::Geometry surface_fields(const Model& model);
 
-/// What pictures of a scene show: the boxes that its particles come into and go out of, and the surfaces about there.
-Eigen::AlignedBox3d stage_of(const Scene& scene, const std::vector<Surface>& surfaces);
+/// What pictures of a scene show: the boxes that its particles come into and go out of, the deformable bodies, and the surfaces about there.
+Eigen::AlignedBox3d stage_of(const Scene& scene, const Walls& walls);
 
 /// Upright slices through the middle of the stage, two mean radii thick, with the surfaces cut there.
 std::vector<report::Picture> scene_slices(const Model& model, const Vec3& gravity, const Eigen::AlignedBox3d& stage,
