@@ -61,7 +61,7 @@ struct Deformable : NearFaces {
     std::vector<std::vector<NodeLoad>> loads;    ///< per block of spheres
     std::vector<Vec3> listed_at;                 ///< nodes when spheres were last listed, m
     SkinSums sums;                               ///< of the last step
-    std::int64_t crossings = 0; ///< contacts beyond the skin, over all steps
+    std::int64_t crossings = 0;                  ///< contacts beyond the skin, over all steps
 
     Deformable() = default;
     Deformable(Solid body, const Material& surface, double friction_coefficient, Coupling how, double on_side);

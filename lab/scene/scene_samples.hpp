@@ -42,7 +42,8 @@ BoxContent content_of(const OutletInput& box, const Model& model);
 report::Geometry particle_fields(const Model& model);
 report::Geometry surface_fields(const Model& model);
 
-/// What pictures of a scene show: the boxes that its particles come into and go out of, the deformable bodies, and the surfaces about there.
+/// What pictures of a scene show: the boxes that its particles come into and go out of, the deformable bodies, and the surfaces about
+/// there.
 Eigen::AlignedBox3d stage_of(const Scene& scene, const Walls& walls);
 
 /// Upright slices through the middle of the stage, two mean radii thick, with the surfaces cut there.
