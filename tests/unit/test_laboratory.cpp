@@ -34,8 +34,8 @@ bool refuses(const std::string& text, const std::string& path, const std::string
 } // namespace
 
 TEST_CASE("every test has a name, a standard, plots, and a smallest deck that is complete") {
-    CHECK(test_names() == std::vector<std::string>{"ucs", "triaxial", "brazilian", "oedometric", "hydrostatic", "direct-tension",
-                                                   "granular-triaxial"});
+    CHECK(test_names() ==
+          std::vector<std::string>{"ucs", "triaxial", "brazilian", "oedometric", "hydrostatic", "direct-tension", "granular-triaxial"});
     for (const auto& name : test_names()) {
         const Deck deck = read_deck({{"test", name}}, "deck.json");
         CHECK_FALSE(deck.protocol->about().standards.empty());
