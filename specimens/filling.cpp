@@ -38,7 +38,7 @@ class Columns {
   public:
     Columns(double diameter, double widest) : half_(0.5 * diameter), cell_(2.0 * widest) {
         across_ = static_cast<int>(diameter / cell_) + 1;
-        standing_.resize(static_cast<std::size_t>(across_ * across_));
+        standing_.resize(static_cast<std::size_t>(across_) * static_cast<std::size_t>(across_));
     }
 
     void put(const Vec3& centre, double radius) { standing_[at(index(centre.x()), index(centre.y()))].push_back({centre, radius}); }
@@ -64,7 +64,9 @@ class Columns {
         double radius;
     };
     [[nodiscard]] int index(double x) const { return std::clamp(static_cast<int>((x + half_) / cell_), 0, across_ - 1); }
-    [[nodiscard]] std::size_t at(int i, int j) const { return static_cast<std::size_t>(i * across_ + j); }
+    [[nodiscard]] std::size_t at(int i, int j) const {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(j);
+    }
 
     double half_, cell_;
     int across_ = 1;

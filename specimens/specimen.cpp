@@ -13,7 +13,6 @@
 
 namespace proveta {
 
-using input::above;
 using input::between;
 using input::Unit;
 
