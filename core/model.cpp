@@ -166,6 +166,13 @@ void Model::keep_stable(bool first) {
         stable_ = std::min(share * eased.dt, bodies);
     }
     dt_ = std::min(dt_, numerics_.safety * stable_);
+    constexpr double crushed = 0.01; // of the first step: whoever asks for less has lost its form
+    if (bodies <= stable_ && dt_ < crushed * first_dt_) {
+        throw NumericalFailure(text("at step ", steps_, " (time ", time_,
+                                    " s) a deformable body has been stretched or crushed so far that "
+                                    "its stable step fell from ",
+                                    first_dt_, " s to ", dt_, " s: a membrane that bursts is too thin or too soft for its pressure"));
+    }
 }
 
 // The rows of the loads follow the lists of pairs.

@@ -1,7 +1,10 @@
 // Drained triaxial compression of loose matter in a rubber membrane.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/input/units.hpp"
 #include "lab/axial_results.hpp"
 #include "lab/confinement.hpp"
 #include "lab/deck.hpp"
@@ -87,6 +90,7 @@ class GranularTriaxial : public Protocol {
             problems.push_back(
                 {deck.source, "/loading/confining_pressure", "0", "a pressure above 0", "loose matter has no strength without"});
         }
+        check_membrane(deck, problems);
         check_axial(loading(0.0), stop_.axial_strain, deck.source, problems);
         if (friction_.word == "glued") {
             problems.push_back(
@@ -166,6 +170,39 @@ class GranularTriaxial : public Protocol {
     [[nodiscard]] double speed(const BenchView& bench) const {
         const Material& stone = bench.model.materials.front();
         return slow_flow * std::sqrt(confinement_.pressure / stone.density) / bench.grain * bench.press.length;
+    }
+
+    // A Neo-Hookean sheet over a hole of radius r bears at most about 0.62 times 2 mu t / r, beyond which it blows up like a balloon. The
+    // holes between stones are taken to have 0.3 of their size.
+    void check_membrane(const Deck& deck, input::Problems& problems) const {
+        if (!deck.specimen.file.empty()) {
+            return; // what its grains are is seen later
+        }
+        const double hole = 0.3 * typical_size(deck.specimen.particles);
+        const double shear = membrane_.young_modulus / (2.0 * (1.0 + membrane_.poisson_ratio));
+        const double least = confinement_.pressure * hole / (1.24 * shear);
+        if (membrane_.thickness < least) {
+            problems.push_back({deck.source, "/loading/membrane/thickness",
+                                input::format_quantity(membrane_.thickness, input::Unit::length),
+                                fmt::format("at least {:.3g} mm: under {} thinner rubber of this modulus blows up between the particles",
+                                            1e3 * least, input::format_quantity(confinement_.pressure, input::Unit::pressure)),
+                                "or a stiffer membrane"});
+        }
+    }
+
+    // Diameter that half of the mass passes, m.
+    static double typical_size(const BedRecipe& bed) {
+        if (bed.size.word.empty()) {
+            return bed.size.number;
+        }
+        for (std::size_t k = 1; k < bed.grading.size(); ++k) {
+            const auto& low = bed.grading[k - 1];
+            const auto& high = bed.grading[k];
+            if (high.passing >= 0.5) {
+                return low.diameter + (high.diameter - low.diameter) * (0.5 - low.passing) / (high.passing - low.passing);
+            }
+        }
+        return bed.grading.back().diameter;
     }
 
     [[nodiscard]] AxialLoading loading(double automatic) const {

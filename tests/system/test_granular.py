@@ -109,6 +109,7 @@ class Granular(Case):
             ({"loading__confining_pressure": 0}, "/loading/confining_pressure"),
             ({"loading__membrane__poisson_ratio": 0.5}, "/loading/membrane/poisson_ratio"),
             ({"loading__membrane__thicknes": 1}, "/loading/membrane/thicknes"),
+            ({"loading__confining_pressure": "500 kPa"}, "/loading/membrane/thickness"),  # it would blow up between the stones
             ({"loading__platen_friction": "glued"}, "/loading/platen_friction"),
             ({"specimen__particles__size": "90 mm"}, "/specimen/particles/size"),
             ({"specimen__spheres": 13500}, "/specimen/spheres"),
