@@ -128,8 +128,7 @@ SolidMesh made(const BodyInput& b) {
 }
 
 void put_into_place(const BodyInput& b, SolidMesh& mesh) {
-    const Eigen::Quaterniond turn = Eigen::AngleAxisd(b.turned[2], Vec3::UnitZ()) * Eigen::AngleAxisd(b.turned[1], Vec3::UnitY()) *
-                                    Eigen::AngleAxisd(b.turned[0], Vec3::UnitX());
+    const Eigen::Quaterniond turn = attitude(b.turned);
     for (auto& v : mesh.node) {
         v = turn * v + vector(b.position);
     }

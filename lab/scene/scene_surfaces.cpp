@@ -40,8 +40,7 @@ SurfaceMesh made(const SurfaceInput& s) {
 
 // Turns the mesh and puts it where it belongs, as its own frame sees it: about the pivot of its motion, which becomes the origin.
 Vec3 put_into_place(const SurfaceInput& s, SurfaceMesh& mesh) {
-    const Eigen::Quaterniond turn = Eigen::AngleAxisd(s.turned[2], Vec3::UnitZ()) * Eigen::AngleAxisd(s.turned[1], Vec3::UnitY()) *
-                                    Eigen::AngleAxisd(s.turned[0], Vec3::UnitX());
+    const Eigen::Quaterniond turn = attitude(s.turned);
     const Vec3 pivot = s.motion.about_what == "point" ? vector(s.motion.about) : vector(s.position);
     for (auto& v : mesh.vertex) {
         v = turn * v + vector(s.position) - pivot;
