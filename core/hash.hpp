@@ -10,6 +10,8 @@ namespace proveta {
 /// FNV-1a, 64 bits, byte by byte from the lowest.
 class Hash {
   public:
+    void mix(unsigned char byte) { value_ = (value_ ^ byte) * 1099511628211ull; }
+
     void mix(std::uint64_t word) {
         for (int byte = 0; byte < 8; ++byte) {
             value_ = (value_ ^ ((word >> (8 * byte)) & 0xffu)) * 1099511628211ull;

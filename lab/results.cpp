@@ -311,7 +311,7 @@ input::Json verdicts_of(const std::vector<report::Badge>& badges) {
     return out;
 }
 
-input::Json summary(const report::Record& r, const Bench& bench, const TestData& data, double seconds) {
+input::Json summary(const report::Record& r, const Bench& bench, const TestData& data) {
     input::Json j;
     j["title"] = r.title;
     j["status"] = r.status;
@@ -372,8 +372,6 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
         j["rate_check"] = "not done";
     }
     j["final_state_hash"] = hex(bench.model->state_hash());
-    j["wall_time_of_loading_s"] = seconds;
-    j["threads"] = omp_get_max_threads();
     return j;
 }
 
