@@ -73,7 +73,7 @@ std::vector<fs::path> members_in(const fs::path& folder) {
 // What a process that was killed did not finish writing.
 void remove_halves(const fs::path& folder) {
     std::vector<fs::path> halves;
-    for (const auto& part : {folder, folder / "fields"}) {
+    for (const auto& part : {folder, folder / "fields", folder / "pictures"}) {
         std::error_code error;
         for (const auto& entry : fs::directory_iterator(part, error)) {
             if (entry.path().extension() == ".partial" || entry.path().extension() == ".next") {
@@ -119,6 +119,7 @@ void OutputFolder::begin() {
                              "series.csv",
                              "mean_curves",
                              "fields",
+                             "pictures",
                              "table.csv",
                              "table.h5",
                              "failures.csv",

@@ -94,14 +94,16 @@ input::Json manifest(const Deck& deck, const Bench& bench, const std::string& co
     return j;
 }
 
-input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh) {
+input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh, bool runs_on) {
     std::ifstream in(file);
     input::Json j = in ? input::Json::parse(in, nullptr, false) : input::Json();
     if (!j.is_object()) {
         return fresh;
     }
-    j["threads"] = omp_get_max_threads();
-    j["resumed"].push_back(now_utc());
+    if (runs_on) {
+        j["threads"] = omp_get_max_threads();
+        j["resumed"].push_back(now_utc());
+    }
     return j;
 }
 

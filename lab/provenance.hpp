@@ -28,8 +28,9 @@ std::string hash_of_file(const std::string& file);
 /// that runs it again. Its "status" is to be running, complete, interrupted or failed.
 input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& folder);
 
-/// The manifest that a test begun earlier left in its folder, with the time at which it goes on; `fresh` when it left none.
-input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh);
+/// The manifest that a test begun earlier left in its folder; `fresh` when it left none. runs_on: it takes more steps, and the time of that
+/// is noted.
+input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh, bool runs_on);
 
 /// What is different now from when a manifest was written, a sentence each: the program, and files that the test was read from. The test
 /// goes on with what the manifest says all the same.

@@ -27,12 +27,18 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+void write_picture(const OutputFolder& out, const std::string& name, const std::string& png) {
+    std::filesystem::create_directories(out.path() / "pictures");
+    report::write_file(out.file("pictures/" + name), png);
+}
+
 // Writes field files and keeps the series.
 class FieldSeries {
   public:
     explicit FieldSeries(const OutputFolder& out) : out_(out) {}
 
-    void write(const Bench& bench) {
+    // stills: height of a picture in pixels; 0: none.
+    void write(const Bench& bench, std::int64_t stills) {
         std::filesystem::create_directories(out_.path() / "fields");
         std::vector<std::string> parts{"spheres", "bonds", "platens"};
         std::vector<report::Geometry> geometry{sphere_fields(bench), bond_fields(bench), platen_fields(bench)};
@@ -43,6 +49,10 @@ class FieldSeries {
         for (std::size_t p = 0; p < parts.size(); ++p) {
             const std::lock_guard lock(file_libraries());
             report::write_vtp(out_.file(name(parts[p], times_.size())), geometry[p]);
+        }
+        if (stills > 0) {
+            write_picture(out_, fmt::format("still_{:04}.png", times_.size()),
+                          still(bench, snapshot(*bench.model, "", ""), static_cast<int>(stills)));
         }
         times_.push_back(bench.model->time());
         std::vector<report::SeriesEntry> entries;
@@ -169,15 +179,17 @@ std::mutex& file_libraries() {
     return mutex;
 }
 
-Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch, bool go_on) {
+Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch,
+                   Passage passage) {
     const auto before_set_up = Clock::now();
     Bench bench = set_up(deck, std::move(specimen));
     log_set_up(bench, since(before_set_up), watch);
 
     input::Json sheet = manifest(deck, bench, command, out.path().string());
+    const bool go_on = passage != Passage::begin;
     if (go_on) {
         out.go_on();
-        sheet = manifest_to_go_on_with(out.file("manifest.json"), sheet);
+        sheet = manifest_to_go_on_with(out.file("manifest.json"), sheet, passage == Passage::go_on);
     } else {
         out.begin();
     }
@@ -202,10 +214,14 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
             watch.progress("loading", progress_line(bench, data, done, before + since(loading)), done);
         }
     };
-    hooks.fields = [&] { series.write(bench); };
-    hooks.interrupted = interrupted;
+    hooks.fields = [&] { series.write(bench, deck.output.pictures); };
+    // Who only reports stops where the checkpoint was made.
+    hooks.interrupted = passage == Passage::report ? [] { return true; } : +[] { return interrupted(); };
     keeper.attach(hooks, go_on);
-    if (go_on) {
+    if (passage == Passage::report && !hooks.restore) {
+        throw input::InputError({{out.path().string(), "", "no checkpoint", "a folder with one, from which a report can be made", ""}});
+    }
+    if (passage == Passage::go_on) {
         watch.log(hooks.restore ? "going on from the last checkpoint" : "no checkpoint yet: the test begins anew");
     }
     TestData data = run_protocol(deck, bench, hooks);
@@ -217,10 +233,10 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
                 watch.progress("half-rate check", progress_line(bench, slow, done, before + since(loading)), done);
             }
         };
-        again.interrupted = interrupted;
+        again.interrupted = hooks.interrupted;
         of_check.attach(again, go_on);
         data.rate_check = check_rate(deck, bench.specimen, data.curve, again);
-        data.interrupted = !data.rate_check && interrupted();
+        data.interrupted = !data.rate_check && hooks.interrupted();
     }
     sheet["wall_time_of_loading_s"] = before + since(loading);
 
@@ -232,6 +248,11 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     const auto acoustic = acoustic_events(data.events, rule);
     report::write_file(out.file("acoustic.csv"), report::to_csv(acoustic_table(acoustic, rule)));
     report::Record record = make_record(deck, bench, data, acoustic, name(status));
+    if (deck.output.pictures > 0) {
+        for (const auto& portrait : portraits(bench, data.moments, static_cast<int>(deck.output.pictures))) {
+            write_picture(out, portrait.file, portrait.png);
+        }
+    }
     report::write_file(out.file("report.html"), report::to_html(record));
     report::write_json(out.file("summary.json"), summary(record, bench, data));
     write_manifest(name(status)); // the last: who finds it complete finds all of it
@@ -256,7 +277,7 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
         progress.show(phase == "loading" ? figures : phase + ": " + figures);
     };
     try {
-        const Finished finished = carry_out(deck, std::move(specimen), out, options.command, {show, log}, options.go_on);
+        const Finished finished = carry_out(deck, std::move(specimen), out, options.command, {show, log}, options.passage);
         progress.end_line();
         fmt::print("{}", as_text(finished.record));
         fmt::print("results in {}\n", out.path().string());

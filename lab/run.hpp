@@ -11,11 +11,18 @@
 
 namespace proveta {
 
+/// What to do in a folder.
+enum class Passage {
+    begin, ///< run from the start, replacing an earlier result
+    go_on, ///< run on from the folder's last checkpoint
+    report ///< write all files anew from the last checkpoint, and take no step
+};
+
 struct RunOptions {
     std::string out;     ///< result folder
     std::string command; ///< as typed, for the manifest
     bool quiet = false;
-    bool go_on = false; ///< from what an earlier run of the same deck has left in the folder
+    Passage passage = Passage::begin;
 };
 
 /// How a run ended.
@@ -39,11 +46,11 @@ struct Finished {
 };
 
 /// Tests a specimen and writes the folder, which is begun once the specimen is in the press. Several threads may do so at once, each with
-/// a folder of its own; the test is worked on by as many threads as OpenMP would give to the calling one. go_on: from the folder's last
-/// checkpoint, if it has one; the files are then the same to the byte as those of a run that was never stopped. Throws InputError, before
+/// a folder of its own; the test is worked on by as many threads as OpenMP would give to the calling one. Files of a run that goes on from
+/// a checkpoint are the same to the byte as those of one that was never stopped. Throws InputError, before
 /// anything is written, when deck and specimen do not fit together or the checkpoints are of another test, and FileError.
 Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch,
-                   bool go_on = false);
+                   Passage passage = Passage::begin);
 
 /// Held while HDF5 or VTK are at work: as usually packaged they are not made for several threads at once.
 std::mutex& file_libraries();

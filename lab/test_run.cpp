@@ -14,17 +14,24 @@ namespace proveta {
 
 namespace {
 
-// Keeps pictures of the specimen at the highest stress so far and 20 % past it.
+// Keeps what the specimen looked like at the highest stress so far and 20 % past it.
 class PeakWatch {
   public:
     void look(const Bench& bench, double stress, double strain) {
         if (stress > highest_) {
             highest_ = stress;
-            at_peak_ = slice(bench, fmt::format("At the peak, strain {:.3f} %", 100.0 * strain));
+            keep(bench, "peak", fmt::format("At the peak, strain {:.3f} %", 100.0 * strain), at_peak_, peak_);
             past_ = false;
         } else if (!past_ && stress < 0.8 * highest_ && bench.model->broken() > 0) {
             past_ = true;
-            at_drop_ = slice(bench, fmt::format("20 % past the peak, strain {:.3f} %", 100.0 * strain));
+            keep(bench, "past_peak", fmt::format("20 % past the peak, strain {:.3f} %", 100.0 * strain), at_drop_, drop_);
+        }
+    }
+
+    void add_to(TestData& data) const {
+        if (past_) {
+            data.pictures.insert(data.pictures.end(), {at_peak_, at_drop_});
+            data.moments.insert(data.moments.end(), {peak_, drop_});
         }
     }
 
@@ -35,20 +42,22 @@ class PeakWatch {
         past_ = past != 0;
         visit_picture("watch_at_peak_", at_peak_, visit);
         visit_picture("watch_at_drop_", at_drop_, visit);
-    }
-
-    void add_to(std::vector<report::Picture>& pictures) const {
-        if (past_) {
-            pictures.push_back(at_peak_);
-            pictures.push_back(at_drop_);
-        }
+        visit_snapshot("watch_peak_", peak_, visit);
+        visit_snapshot("watch_drop_", drop_, visit);
     }
 
   private:
+    static void keep(const Bench& bench, const char* name, const std::string& title, report::Picture& picture, Snapshot& moment) {
+        picture = slice(bench, title);
+        moment = snapshot(*bench.model, name, title);
+    }
+
     double highest_ = 0.0;
     bool past_ = false;
     report::Picture at_peak_;
     report::Picture at_drop_;
+    Snapshot peak_;
+    Snapshot drop_;
 };
 
 void record_failures(const Model& model, double strain, Instruments& instruments, std::vector<FailureEvent>& events) {
@@ -78,6 +87,7 @@ class Run {
 
     TestData go() {
         data_.pictures.push_back(slice(bench_, "Before the test"));
+        data_.moments.push_back(snapshot(model_, "intact", "Before the test"));
         stages_ = deck_.protocol->stages(view_, variant_.pace); // as the specimen is before the test
         bool midst = false;
         if (hooks_.restore) {
@@ -110,8 +120,9 @@ class Run {
             over_ = 1;
             keep(true);
         }
-        watch_.add_to(data_.pictures);
+        watch_.add_to(data_);
         data_.pictures.push_back(slice(bench_, "At the end"));
+        data_.moments.push_back(snapshot(model_, "end", "At the end"));
         if (!model_.walls.bodies.empty()) {
             data_.pictures.push_back(membrane_view(bench_, "The membrane at the end"));
         }

@@ -9,6 +9,7 @@
 #include "lab/failure_event.hpp"
 #include "lab/instruments.hpp"
 #include "lab/rate_check.hpp"
+#include "lab/snapshot.hpp"
 #include "reports/record/record.hpp"
 #include "specimens/checkpoint.hpp"
 
@@ -20,6 +21,7 @@ struct TestData {
     report::Table energy;
     std::vector<FailureEvent> events;
     std::vector<report::Picture> pictures; ///< before, at peak, 20 % past it, at the end
+    std::vector<Snapshot> moments;         ///< the same moments, to be drawn
     std::vector<std::string> stages;       ///< names of those that were begun
     std::string stopped_by;
     std::optional<RateCheck> rate_check; ///< empty: none was made

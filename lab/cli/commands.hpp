@@ -15,6 +15,9 @@ using Command = std::function<int()>;
 
 void add_run(CLI::App& app, const std::string& typed, Command& chosen);
 void add_resume(CLI::App& app, const std::string& typed, Command& chosen);
+void add_report(CLI::App& app, const std::string& typed, Command& chosen);
+void add_compare(CLI::App& app, const std::string& typed, Command& chosen);
+void add_plot(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_describe(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);

@@ -92,6 +92,9 @@ int main(int argc, char** argv) {
     proveta::Command chosen;
     proveta::add_run(app, typed, chosen);
     proveta::add_resume(app, typed, chosen);
+    proveta::add_report(app, typed, chosen);
+    proveta::add_compare(app, typed, chosen);
+    proveta::add_plot(app, chosen);
     proveta::add_check(app, chosen);
     proveta::add_describe(app, chosen);
     proveta::add_schema(app, chosen);

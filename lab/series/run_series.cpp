@@ -125,7 +125,7 @@ MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& f
     MemberResult result;
     result.member = &member;
     try {
-        Finished finished = carry_out(member.deck, std::move(specimen), folder, options.command, watch, options.go_on);
+        Finished finished = carry_out(member.deck, std::move(specimen), folder, options.command, watch, options.passage);
         result.status = name(finished.status);
         result.stopped_by = finished.record.stopped_by;
         result.results = std::move(finished.record.results);
@@ -185,7 +185,7 @@ RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, c
     const auto write_manifest = [&](const std::string& status) {
         report::write_json(out.file("manifest.json"), series_manifest(plan, specimens.hashes, options.command, status, started, folder));
     };
-    options.go_on ? out.go_on() : out.begin();
+    options.passage == Passage::begin ? out.begin() : out.go_on();
     write_manifest("running");
     auto members = run_members(plan, specimens, folders, options, static_cast<std::size_t>(std::max(threads, 1)), board);
 
