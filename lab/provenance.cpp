@@ -38,9 +38,7 @@ std::string hash_of_file(const std::string& file) {
     Hash hash;
     char buffer[65536];
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
-        for (std::streamsize k = 0; k < in.gcount(); ++k) {
-            hash.mix(static_cast<std::uint64_t>(static_cast<unsigned char>(buffer[k])));
-        }
+        hash.mix(buffer, static_cast<std::size_t>(in.gcount()));
     }
     return hex(hash.value());
 }

@@ -147,9 +147,8 @@ class Keeper {
 // Which test a checkpoint is of: deck and specimen, to the bit.
 std::string owner_of(const Deck& deck, const Bench& bench) {
     Hash hash;
-    for (const char c : resolved(deck).dump()) {
-        hash.mix(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
-    }
+    const std::string text = resolved(deck).dump();
+    hash.mix(text.data(), text.size());
     return hex(hash.value()) + " " + hex(bench.specimen_hash);
 }
 

@@ -4,17 +4,20 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
+
+#include "core/input/text_file.hpp"
 
 namespace proveta {
 
 namespace {
 
+constexpr std::uintmax_t longest = 64 << 20; // bytes, some million rows
 constexpr const char* heading = "confinement_MPa,axial_strain,lateral_strain,axial_stress_MPa,kind";
 
 // The next line that is no comment, without spaces.
-bool next_line(std::ifstream& in, std::string& line, int& number) {
+bool next_line(std::istream& in, std::string& line, int& number) {
     while (std::getline(in, line)) {
         ++number;
         std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0; });
@@ -28,14 +31,14 @@ bool next_line(std::ifstream& in, std::string& line, int& number) {
 } // namespace
 
 bool is_measured_curve(const std::string& file) {
-    std::ifstream in(file);
+    std::istringstream in(input::read_text(file, longest));
     std::string line;
     int number = 0;
     return next_line(in, line, number) && line == heading;
 }
 
 MeasuredCurve load_measured_curve(const std::string& file) {
-    std::ifstream in(file);
+    std::istringstream in(input::read_text(file, longest));
     std::string line;
     int number = 0;
     const auto fail = [&](const std::string& what) { throw std::runtime_error(fmt::format("{}: line {}: {}", file, number, what)); };

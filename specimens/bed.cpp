@@ -160,6 +160,10 @@ void check_bed(const BedRecipe& r, const Shape& cylinder, const std::string& sou
     }
 }
 
+double particles_of(const BedRecipe& r, const Shape& cylinder) {
+    return r.count.word.empty() ? r.count.number : std::ceil(count_at(r, cylinder, filled));
+}
+
 Filling make_bed(const BedRecipe& r, const Shape& cylinder, std::uint64_t seed, const std::function<void(double)>& progress) {
     FillingPlan plan;
     plan.diameter = cylinder.diameter;
@@ -168,8 +172,7 @@ Filling make_bed(const BedRecipe& r, const Shape& cylinder, std::uint64_t seed, 
     plan.modulus = r.filling_modulus;
     plan.pressure = r.seating_pressure;
     plan.level = !r.count.word.empty();
-    const double count = plan.level ? std::ceil(count_at(r, cylinder, filled)) : r.count.number;
-    const auto n = static_cast<std::size_t>(count);
+    const auto n = static_cast<std::size_t>(particles_of(r, cylinder));
     plan.forms = forms_of(r, n, seed);
     const std::vector<double> sizes = sizes_of(r, n, seed);
     for (std::size_t k = 0; k < n; ++k) {

@@ -43,6 +43,9 @@ void declare(input::Visitor& v, BedRecipe& recipe);
 void check_bed(const BedRecipe& recipe, const Shape& cylinder, const std::string& source, const std::string& path,
                input::Problems& problems);
 
+/// Number of particles that are put in.
+double particles_of(const BedRecipe& recipe, const Shape& cylinder);
+
 /// Fills a cylinder. Same recipe and seed, same bed, bit for bit, whatever the number of threads. progress (0 to 1) may be empty. Throws
 /// std::invalid_argument for particles that do not fit in, NumericalFailure when they come to no rest.
 Filling make_bed(const BedRecipe& recipe, const Shape& cylinder, std::uint64_t seed, const std::function<void(double)>& progress = {});

@@ -8,9 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/files/whole_file.hpp"
+#include "core/input/text_file.hpp"
+#include "specimens/memory.hpp"
 
 namespace proveta {
 
@@ -44,10 +47,9 @@ bool number(const std::string& text, double& value) {
 // A text file read line by line, which knows where it is.
 class Lines {
   public:
-    explicit Lines(const std::string& file) : file_(file), in_(file) {
-        if (!in_) {
-            throw std::runtime_error(file + ": cannot be read");
-        }
+    explicit Lines(const std::string& file) : file_(file) {
+        require_file(file);
+        in_ = std::istringstream(input::read_text(file, largest_file));
     }
     bool next(std::string& line) {
         ++number_;
@@ -64,7 +66,7 @@ class Lines {
 
   private:
     std::string file_;
-    std::ifstream in_;
+    std::istringstream in_;
     int number_ = 0;
 };
 

@@ -12,10 +12,10 @@ namespace {
 constexpr double smallest_facet = 1e-6; // of the raw area; less is round-off of the cuts
 
 // A facet seen from one of its cells.
-struct Facet {
+struct CellFace {
     Pair pair;
     double area;
-    bool operator<(const Facet& o) const { return pair < o.pair; }
+    bool operator<(const CellFace& o) const { return pair < o.pair; }
 };
 
 // Spheres that the tessellation can take: inside the box, no two in one place.
@@ -65,7 +65,7 @@ LaguerreAreas laguerre_areas(const Shape& shape, const Spheres& s, const std::ve
         }
     }
 
-    std::vector<Facet> facets;
+    std::vector<CellFace> facets;
     std::vector<int> beyond;
     std::vector<double> area;
     std::vector<char> has_cell(n, 0);
@@ -94,7 +94,7 @@ LaguerreAreas laguerre_areas(const Shape& shape, const Spheres& s, const std::ve
 
     // The two cells of a facet are cut one by one and see it with different round-off, or one of them not at all: take the mean of both.
     std::stable_sort(facets.begin(), facets.end());
-    std::vector<Facet> merged;
+    std::vector<CellFace> merged;
     for (const auto& f : facets) {
         if (merged.empty() || !(merged.back().pair == f.pair)) {
             merged.push_back({f.pair, 0.0});
@@ -116,7 +116,7 @@ LaguerreAreas laguerre_areas(const Shape& shape, const Spheres& s, const std::ve
         const double cone = raw_area(AreaRule::laguerre, s, i, j);
         raw[i] += cone;
         raw[j] += cone;
-        const auto at = std::lower_bound(merged.begin(), merged.end(), Facet{pairs[k], 0.0});
+        const auto at = std::lower_bound(merged.begin(), merged.end(), CellFace{pairs[k], 0.0});
         const bool found = at != merged.end() && at->pair == pairs[k] && at->area > smallest_facet * cone;
         if (found) {
             out.areas.pair[k] = at->area;

@@ -6,11 +6,11 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
+#include "core/input/text_file.hpp"
+#include "specimens/memory.hpp"
 #include "specimens/solid_content.hpp"
 
 namespace proveta {
@@ -27,11 +27,8 @@ int dimension_of(Kind kind) {
     return dimension[static_cast<std::size_t>(kind)];
 }
 std::string text_of(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw std::runtime_error(file + ": cannot be read");
-    }
-    return {std::istreambuf_iterator<char>(in), {}};
+    require_file(file);
+    return input::read_text(file, largest_file);
 }
 
 std::string shown(std::string_view text) {
@@ -158,9 +155,7 @@ std::size_t nodes_in_one_place(const SolidMesh& mesh) {
 }
 
 Content read(const std::string& file) {
-    if (!std::filesystem::is_regular_file(file)) {
-        throw std::runtime_error(file + ": no such file");
-    }
+    require_file(file);
     std::string type = std::filesystem::path(file).extension().string();
     std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (type == ".msh") {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "specimens/grading.hpp"
+#include "specimens/memory.hpp"
 #include "specimens/storage.hpp"
 
 namespace proveta {
@@ -206,6 +208,7 @@ Specimen make_specimen(const SpecimenRecipe& recipe, const std::function<void(do
 Specimen obtain_specimen(const SpecimenRecipe& recipe, const std::string& folder, const std::string& source,
                          const std::function<void(double)>& progress) {
     if (recipe.file.empty()) {
+        require_memory(recipe, source, "/specimen");
         try {
             return make_specimen(recipe, progress);
         } catch (const std::invalid_argument& e) {
@@ -222,6 +225,10 @@ Specimen obtain_specimen(const SpecimenRecipe& recipe, const std::string& folder
         throw input::InputError({{source, "/specimen/file", fmt::format("\"{}\": {}", recipe.file, e.what()),
                                   "a specimen stored by this program (.h5)", "make one with: proveta specimen make or import"}});
     }
+    const std::size_t spheres =
+        std::accumulate(s.stones.begin(), s.stones.end(), s.spheres.radius.size(),
+                        [&](std::size_t n, const Stone& k) { return n + s.forms[static_cast<std::size_t>(k.form)].radius.size(); });
+    require_memory(spheres, source, "/specimen/file", fmt::format("\"{}\": {} spheres", recipe.file, spheres));
     if (!recipe.granular() && !s.stones.empty()) {
         throw input::InputError({{source, "/specimen/file", fmt::format("\"{}\": {} loose stones", recipe.file, s.stones.size()),
                                   "a specimen of spheres, which this test bonds", "a test on granular matter takes stones"}});

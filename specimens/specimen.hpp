@@ -73,8 +73,8 @@ void check_recipe(const SpecimenRecipe& recipe, const std::string& source, const
 /// Makes the specimen of a recipe. Same recipe, same specimen, whatever the number of threads. progress (0 to 1) may be empty.
 Specimen make_specimen(const SpecimenRecipe& recipe, const std::function<void(double)>& progress = {});
 
-/// Loads the recipe's file, or makes the specimen. Throws InputError when that fails or the file has stones where the test bonds spheres.
-/// folder: where a relative file name starts.
+/// Loads the recipe's file, or makes the specimen. Throws InputError when that fails, when its test needs more memory than there is, or
+/// when the file has stones where the test bonds spheres. folder: where a relative file name starts.
 Specimen obtain_specimen(const SpecimenRecipe& recipe, const std::string& folder, const std::string& source,
                          const std::function<void(double)>& progress = {});
 

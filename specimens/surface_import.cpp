@@ -1,11 +1,8 @@
 #include "specimens/surface_import.hpp"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
-#include <vtkExecutive.h>
 #include <vtkIdList.h>
-#include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
 #include <vtkPolyData.h>
@@ -15,14 +12,22 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
+
+#include "specimens/memory.hpp"
+#include "specimens/vtk_check.hpp"
+#include "specimens/vtk_reading.hpp"
 
 namespace proveta {
 
 namespace {
+
+constexpr double farthest = 1e12; // m: of what is no mistake in a file
 
 std::string ending(const std::string& file) {
     std::string out = std::filesystem::path(file).extension().string();
@@ -30,50 +35,56 @@ std::string ending(const std::string& file) {
     return out;
 }
 
-// Runs a reader; what it complains about ends up in `error` instead of on the screen.
-template <class Reader> vtkSmartPointer<vtkPolyData> read_with(const std::string& file, std::string& error) {
-    vtkNew<Reader> reader;
-    vtkNew<vtkCallbackCommand> watch;
-    watch->SetClientData(&error);
-    watch->SetCallback([](vtkObject*, unsigned long, void* kept, void* text) {
-        auto& out = *static_cast<std::string*>(kept);
-        if (out.empty() && text != nullptr) {
-            out = static_cast<const char*>(text);
-        }
-    });
-    reader->AddObserver(vtkCommand::ErrorEvent, watch);
-    reader->AddObserver(vtkCommand::WarningEvent, watch);
-    reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, watch); // says again that the reader failed
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    return reader->GetOutput();
+template <class Reader> vtk::Read<vtkPolyData> read_with(const std::string& file) {
+    return vtk::read_with<Reader>(file, [&](Reader& reader) { reader.SetFileName(file.c_str()); });
+}
+
+// A binary STL file says how many faces follow; VTK's reader makes room for them.
+void check_stl(const std::string& file) {
+    constexpr std::uintmax_t head = 84;
+    constexpr std::uintmax_t face = 50;
+    const std::uintmax_t size = std::filesystem::file_size(file);
+    std::ifstream in(file, std::ios::binary);
+    std::array<unsigned char, head> bytes{};
+    if (!in.read(reinterpret_cast<char*>(bytes.data()), bytes.size()) ||
+        std::string_view(reinterpret_cast<char*>(bytes.data()), 5) == "solid") {
+        return;
+    }
+    const std::uint32_t announced = bytes[80] | bytes[81] << 8U | bytes[82] << 16U | std::uint32_t{bytes[83]} << 24U;
+    if (announced > (size - head) / face) {
+        throw std::runtime_error(fmt::format("{}: {} faces are announced, which a file of {} bytes cannot hold", file, announced, size));
+    }
+}
+
+vtk::Read<vtkPolyData> read_as(const std::string& type, const std::string& file) {
+    if (type == ".stl") {
+        check_stl(file);
+        return read_with<vtkSTLReader>(file);
+    }
+    if (type == ".obj") {
+        return read_with<vtkOBJReader>(file);
+    }
+    if (type == ".ply") {
+        return read_with<vtkPLYReader>(file);
+    }
+    if (type == ".vtk") {
+        return vtk::read_text_with<vtkPolyDataReader>(file, vtk::checked_polygons(file));
+    }
+    if (type == ".vtp") {
+        vtk::check_xml(file);
+        return vtk::read_xml_with<vtkXMLPolyDataReader>(file);
+    }
+    throw std::runtime_error(fmt::format("{}: surfaces are read from .stl, .obj, .ply, .vtk and .vtp files", file));
 }
 
 vtkSmartPointer<vtkPolyData> read(const std::string& file) {
-    if (!std::filesystem::is_regular_file(file)) {
-        throw std::runtime_error(file + ": no such file");
-    }
-    const std::string type = ending(file);
-    std::string error;
-    vtkSmartPointer<vtkPolyData> data;
-    if (type == ".stl") {
-        data = read_with<vtkSTLReader>(file, error);
-    } else if (type == ".obj") {
-        data = read_with<vtkOBJReader>(file, error);
-    } else if (type == ".ply") {
-        data = read_with<vtkPLYReader>(file, error);
-    } else if (type == ".vtk") {
-        data = read_with<vtkPolyDataReader>(file, error);
-    } else if (type == ".vtp") {
-        data = read_with<vtkXMLPolyDataReader>(file, error);
-    } else {
-        throw std::runtime_error(fmt::format("{}: surfaces are read from .stl, .obj, .ply, .vtk and .vtp files", file));
-    }
+    require_file(file);
+    const auto [data, complaint] = read_as(ending(file), file);
     if (data == nullptr || data->GetNumberOfPolys() + data->GetNumberOfStrips() == 0) {
-        // VTK's own words come as "ERROR: In file, line n\nclass (address): what".
-        const auto said = error.substr(0, error.find_last_not_of(" \n") + 1);
-        const auto what = said.rfind("): ");
-        throw std::runtime_error(file + ": holds no faces" + (what == std::string::npos ? "" : " (" + said.substr(what + 3) + ")"));
+        throw std::runtime_error(file + ": holds no faces" + (complaint.empty() ? "" : " (" + complaint + ")"));
+    }
+    for (vtkCellArray* cells : {data->GetPolys(), data->GetStrips()}) {
+        vtk::check_cells(*cells, data->GetNumberOfPoints(), file);
     }
     return data;
 }
@@ -84,8 +95,8 @@ SurfaceMesh mesh_of(vtkPolyData& data, double scale, const std::string& file) {
         double x[3];
         data.GetPoint(k, x);
         const Vec3 v = scale * Vec3(x[0], x[1], x[2]);
-        if (!v.allFinite()) {
-            throw std::runtime_error(fmt::format("{}: point {} is not finite", file, k + 1));
+        if (!(v.lpNorm<Eigen::Infinity>() <= farthest)) {
+            throw std::runtime_error(fmt::format("{}: point {} is at {:.4g} {:.4g} {:.4g} m", file, k + 1, v.x(), v.y(), v.z()));
         }
         mesh.vertex.push_back(v);
     }

@@ -16,12 +16,12 @@ namespace {
 // Corners may lie this far out of a polygon's plane or behind its edges, over its size.
 constexpr double flat = 1e-5;
 
-double size_of(const SurfaceMesh& mesh) {
+Eigen::AlignedBox3d box_of(const SurfaceMesh& mesh) {
     Eigen::AlignedBox3d box;
     for (const auto& v : mesh.vertex) {
         box.extend(v);
     }
-    return box.isEmpty() ? 0.0 : box.diagonal().norm();
+    return box;
 }
 
 // Longest side of a face.
@@ -39,8 +39,9 @@ bool degenerate(const SurfaceMesh& mesh, std::size_t f) {
 }
 
 bool bent(const SurfaceMesh& mesh, std::size_t f, const Vec3& normal) {
+    const double tolerance = flat * longest(mesh, f);
     for (std::size_t k = 1; k < mesh.corners(f); ++k) {
-        if (std::fabs(normal.dot(mesh.at(f, k) - mesh.at(f, 0))) > flat * longest(mesh, f)) {
+        if (std::fabs(normal.dot(mesh.at(f, k) - mesh.at(f, 0))) > tolerance) {
             return true;
         }
     }
@@ -50,10 +51,11 @@ bool bent(const SurfaceMesh& mesh, std::size_t f, const Vec3& normal) {
 // Some corner lies behind some edge.
 bool concave(const SurfaceMesh& mesh, std::size_t f, const Vec3& normal) {
     const std::size_t n = mesh.corners(f);
+    const double tolerance = flat * longest(mesh, f);
     for (std::size_t a = 0; a < n; ++a) {
         const Vec3 inward = normal.cross(mesh.at(f, (a + 1) % n) - mesh.at(f, a)).normalized();
         for (std::size_t k = 0; k < n; ++k) {
-            if (inward.dot(mesh.at(f, k) - mesh.at(f, a)) < -flat * longest(mesh, f)) {
+            if (inward.dot(mesh.at(f, k) - mesh.at(f, a)) < -tolerance) {
                 return true;
             }
         }
@@ -174,7 +176,8 @@ SurfaceState look_at(const SurfaceMesh& mesh) {
 }
 
 SurfaceMesh welded(const SurfaceMesh& mesh, double tolerance) {
-    const double reach = tolerance * size_of(mesh);
+    const auto box = box_of(mesh);
+    const double reach = box.isEmpty() ? 0.0 : tolerance * box.diagonal().norm();
     SurfaceMesh out;
     std::vector<std::uint32_t> target(mesh.vertex.size());
     using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
@@ -183,8 +186,9 @@ SurfaceMesh welded(const SurfaceMesh& mesh, double tolerance) {
     const double width = reach > 0.0 ? 2.0 * reach : 1.0;
     for (std::size_t k = 0; k < mesh.vertex.size(); ++k) {
         const Vec3& v = mesh.vertex[k];
-        // Cells twice as wide as the reach: a near vertex lies in the cell itself or in one beside it.
-        const Cell cell = (v / width).array().floor().matrix().cast<std::int64_t>();
+        // Cells twice as wide as the reach: a near vertex lies in the cell itself or in one beside it. Counted from a corner of the
+        // surface, which may lie far away for its size.
+        const Cell cell = ((v - box.min()) / width).array().floor().matrix().cast<std::int64_t>();
         std::uint32_t found = static_cast<std::uint32_t>(out.vertex.size());
         for (int n = 0; n < 27; ++n) {
             const auto [begin, end] = cells.equal_range(hash(cell + Cell(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "core/input/json.hpp"
+#include "core/input/text_file.hpp"
 
 namespace proveta::input {
 
@@ -44,32 +44,28 @@ Json load_json(const std::string& file) {
     if (!fs::exists(file, error)) {
         fail("no such file", "a JSON file");
     }
-    if (fs::is_directory(file, error)) {
-        fail("a folder", "a JSON file");
-    }
-    if (fs::is_regular_file(file, error) && fs::file_size(file, error) > largest) {
-        fail("a file of more than 16 MiB", "a JSON file of a few kilobytes");
-    }
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        fail("a file that cannot be read", "a readable JSON file");
-    }
     std::string text;
-    char buffer[65536];
-    while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
-        text.append(buffer, static_cast<std::size_t>(in.gcount()));
-        if (text.size() > largest) {
-            fail("more than 16 MiB", "a JSON file of a few kilobytes");
-        }
+    try {
+        text = read_text(file, largest);
+    } catch (const std::runtime_error& e) {
+        fail(std::string(e.what()).substr(file.size() + 2), "a JSON file of a few kilobytes");
     }
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
         fail("an empty file", "a JSON object", "the smallest complete deck is { \"test\": \"ucs\" }");
     }
-    int depth = 0;
-    auto guard = [&](int level, Json::parse_event_t, Json&) {
-        depth = std::max(depth, level);
-        if (depth > 64) {
+    std::vector<std::size_t> keys; // of the objects around, outermost first
+    auto guard = [&](int level, Json::parse_event_t event, Json&) {
+        if (level > 64) {
             fail("more than 64 nested levels", "a flat JSON object");
+        }
+        if (event == Json::parse_event_t::key) { // looked up one by one: very many would take for ever
+            keys.resize(static_cast<std::size_t>(level), 0);
+            if (++keys.back() > 10000) {
+                fail("an object of more than 10000 keys", "a JSON file of a few kilobytes");
+            }
+        } else if (event == Json::parse_event_t::object_start) {
+            keys.resize(static_cast<std::size_t>(level));
+            keys.push_back(0);
         }
         return true;
     };

@@ -174,12 +174,13 @@ void JsonReader::numbers(const char* key, std::vector<double>& values, std::size
         complain(path, shown(*j), count > 0 ? fmt::format("a list of {} numbers", count) : "a list of numbers");
         return;
     }
+    constexpr std::size_t most_complaints = 20; // of a list that may be of any length
     std::vector<double> read(j->size());
-    bool good = true;
-    for (std::size_t k = 0; k < read.size(); ++k) {
-        good = to_number((*j)[k], fmt::format("{}/{}", path, k), unit, bounds, read[k]) && good;
+    std::size_t bad = 0;
+    for (std::size_t k = 0; k < read.size() && bad < most_complaints; ++k) {
+        bad += to_number((*j)[k], fmt::format("{}/{}", path, k), unit, bounds, read[k]) ? 0 : 1;
     }
-    if (good) {
+    if (bad == 0) {
         values = read;
     }
 }

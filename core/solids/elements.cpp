@@ -1,4 +1,4 @@
-#include "core/solids/elements.hpp"
+#include "core/solids/element_point.hpp"
 
 #include <Eigen/LU>
 #include <cmath>

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/solids/elements.hpp"
+
 namespace proveta {
 
 namespace {

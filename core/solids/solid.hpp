@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "core/parallel/team.hpp"
-#include "core/solids/elements.hpp"
+#include "core/solids/element_point.hpp"
+#include "core/solids/solid_material.hpp"
 #include "core/solids/solid_mesh.hpp"
 
 namespace proveta {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/solids/solid.hpp"
+#include "core/solids/solid_law.hpp"
 
 namespace proveta {
 
@@ -29,7 +30,8 @@ template <int N, int D, class Points> double square_frequency(const Points& poin
             }
         }
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N * D, N * D>>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    // Of dynamic size: a solver for each size of its own takes the compiler longer than all the rest of this room.
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 template <int D> using Square = Eigen::Matrix<double, D, D>;

@@ -45,7 +45,9 @@ Points points_of_table(const TargetInput& t) {
     const std::size_t y = column_of(table, t.y_column);
     Points points;
     for (const auto& row : table.rows) {
-        points.emplace_back(t.x_factor * row[x], t.y_factor * row[y]);
+        if (std::isfinite(row[x]) && std::isfinite(row[y])) { // files may say "nan", which has no place in an order
+            points.emplace_back(t.x_factor * row[x], t.y_factor * row[y]);
+        }
     }
     return points;
 }

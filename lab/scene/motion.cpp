@@ -97,6 +97,11 @@ std::vector<double> column(const report::Table& table, const std::string& name) 
 
 report::Table read_places(const std::string& file) {
     report::Table table = read_csv(file);
+    for (const auto& row : table.rows) {
+        if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); })) {
+            throw std::runtime_error(file + ": holds a value that is not finite");
+        }
+    }
     const auto t = column(table, "t");
     if (t.size() < 2 || !std::is_sorted(t.begin(), t.end(), std::less_equal<>())) {
         throw std::runtime_error(file + ": needs a column \"t\" of two or more ascending times in s");

@@ -11,6 +11,7 @@
 #include "core/motion/stable_step.hpp"
 #include "lab/scene/scene_surfaces.hpp"
 #include "specimens/grading.hpp"
+#include "specimens/memory.hpp"
 #include "specimens/stones.hpp"
 
 namespace proveta {
@@ -62,6 +63,7 @@ std::vector<ClusterShape> forms_of(const ParticleInput& p, std::uint64_t seed, c
 
 std::vector<ParticleKind> make_kinds(const Scene& scene) {
     std::vector<ParticleKind> out;
+    std::size_t spheres = 0; // of all kinds so far
     for (std::size_t k = 0; k < scene.particles.size(); ++k) {
         const ParticleInput& p = scene.particles[k];
         const std::string path = fmt::format("/particles/{}", k);
@@ -73,6 +75,13 @@ std::vector<ParticleKind> make_kinds(const Scene& scene) {
         for (const auto& form : kind.forms) {
             kind.reach.push_back(reach_of(form));
         }
+        std::size_t of_forms = 0;
+        for (const auto& form : kind.forms) {
+            of_forms += form.radius.size();
+        }
+        spheres += static_cast<std::size_t>(p.count) * of_forms / std::max(kind.forms.size(), std::size_t{1});
+        spheres += kind.forms.empty() ? static_cast<std::size_t>(p.count) : 0;
+        require_memory(spheres, scene.source, path + "/count", fmt::format("{} particles, {} spheres in all so far", p.count, spheres));
         for (const double size : sizes_of(p, seed, scene, path)) {
             kind.plan.push_back({size, kind.forms.empty() ? -1 : static_cast<int>(kind.plan.size() % kind.forms.size())});
         }

@@ -14,9 +14,9 @@ namespace proveta {
 namespace {
 
 // Random numbers that are the same everywhere: the standard fixes the engine, but not what its distributions make of it.
-class Random {
+class Draws {
   public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
+    explicit Draws(std::uint64_t seed) : engine_(seed) {}
 
     // 0 <= u < 1, of the upper 53 bits.
     double uniform() { return proveta::uniform(engine_); }
@@ -54,7 +54,7 @@ std::vector<Point> grid(const std::vector<std::vector<double>>& levels) {
 }
 
 std::vector<Point> latin_hypercube(std::size_t n, std::size_t parameters, std::uint64_t seed) {
-    Random random(seed);
+    Draws random(seed);
     std::vector<Point> out(n, Point(parameters));
     for (std::size_t k = 0; k < parameters; ++k) {
         const auto stratum = random.permutation(n);
@@ -83,7 +83,7 @@ std::vector<Point> morris(std::size_t trajectories, std::size_t parameters, std:
     if (levels < 2 || levels % 2 != 0) {
         throw std::invalid_argument("Morris' design with an even number of levels");
     }
-    Random random(seed);
+    Draws random(seed);
     const std::size_t jump = levels / 2; // in levels: the standard step, with which all levels are equally frequent
     const auto coordinate = [&](std::size_t level) { return static_cast<double>(level) / static_cast<double>(levels - 1); };
     std::vector<Point> out;

@@ -4,8 +4,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
+
+#include "core/input/text_file.hpp"
 
 namespace proveta {
 
@@ -49,10 +51,7 @@ bool to_number(const std::string& cell, double& value) {
 } // namespace
 
 report::Table read_csv(const std::string& file) {
-    std::ifstream in(file);
-    if (!in) {
-        throw std::runtime_error(file + ": cannot be read");
-    }
+    std::istringstream in(input::read_text(file, 64 << 20));
     report::Table table;
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {

@@ -97,7 +97,8 @@ namespace {
 bool make(const Json& deck, const fs::path& file) {
     std::optional<Specimen> specimen;
     try {
-        specimen = make_specimen(read_deck(deck, "deck").specimen);
+        const Deck read = read_deck(deck, "deck");
+        specimen = obtain_specimen(read.specimen, read.folder, read.source);
     } catch (const std::exception&) {
         return false;
     }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/solids/solid_law.hpp"
 #include "tests/bodies.hpp"
 
 using namespace proveta;

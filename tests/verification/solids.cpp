@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "core/solids/solid_law.hpp"
 #include "tests/bodies.hpp"
 
 using namespace proveta;

@@ -1,0 +1,13 @@
+// Text files of users, which may be anything.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace proveta::input {
+
+/// The whole of a file or a pipe. Throws std::runtime_error, naming it, when it cannot be read, is a folder, or does not end within `most`
+/// bytes, which is all that is read of it then.
+std::string read_text(const std::string& file, std::uintmax_t most);
+
+} // namespace proveta::input
