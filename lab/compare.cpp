@@ -74,7 +74,8 @@ Shown shown(const std::string& column) {
 const report::Table* table_with(const StoredResult& test, const std::string& name, std::string& heading) {
     for (const report::Table* table : {&test.curve, &test.energy}) {
         for (const auto& column : table->columns) {
-            if (column.name == name || column.name.starts_with(name + "_") && column.name.find('_', name.size() + 1) == std::string::npos) {
+            const bool plus_unit = column.name.starts_with(name + "_") && column.name.find('_', name.size() + 1) == std::string::npos;
+            if (column.name == name || plus_unit) {
                 heading = column.name;
                 return table;
             }

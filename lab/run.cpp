@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 
 #include "core/files/whole_file.hpp"
 #include "core/hash.hpp"
@@ -17,6 +19,7 @@
 #include "lab/test_run.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
+#include "reports/paraview.hpp"
 #include "specimens/checkpoint.hpp"
 
 namespace proveta {
@@ -62,6 +65,12 @@ class FieldSeries {
             }
         }
         report::write_file(out_.file("series.pvd"), report::to_pvd(entries));
+        for (const auto& part : parts) { // each part alone too, as scripts want it
+            std::vector<report::SeriesEntry> alone;
+            std::copy_if(entries.begin(), entries.end(), std::back_inserter(alone), [&](const auto& entry) { return entry.part == part; });
+            report::write_file(out_.file(part + ".pvd"), report::to_pvd(alone));
+        }
+        report::write_file(out_.file("views.py"), report::paraview_script());
     }
 
     void visit_state(StateVisitor& visit) { visit("field_times", times_); }
