@@ -42,8 +42,10 @@ run)
 test)
     install_packages
     build_program
-    # The schema test wants a JSON schema validator.
-    [ -d "$node_tools/node_modules/ajv" ] || npm install --silent --no-audit --no-fund --prefix "$node_tools" ajv@8 >/dev/null
+    # The schema test wants a JSON schema validator, the test of the pages what drives a browser.
+    for tool in ajv@8 playwright-core@1; do
+        [ -d "$node_tools/node_modules/${tool%@*}" ] || npm install --silent --no-audit --no-fund --prefix "$node_tools" "$tool" >/dev/null
+    done
     PROVETA_NODE_MODULES="$PWD/$node_tools/node_modules" ctest --preset release -L 'unit|verification|system' -j 2
     ;;
 *)

@@ -258,7 +258,11 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     report::Record record = make_record(deck, bench, data, acoustic, name(status));
     if (deck.output.pictures > 0) {
         for (const auto& portrait : portraits(bench, data.moments, static_cast<int>(deck.output.pictures))) {
-            write_picture(out, portrait.file, portrait.png);
+            write_picture(out, portrait.file, portrait.portrait.png);
+        }
+        constexpr int on_page = 440; // pixels
+        for (auto& portrait : portraits(bench, data.moments, on_page)) {
+            record.portraits.push_back(std::move(portrait.portrait));
         }
     }
     report::write_file(out.file("report.html"), report::to_html(record));

@@ -106,18 +106,19 @@ void visit_snapshot(const std::string& prefix, Snapshot& s, StateVisitor& visit)
     visit(prefix + "mode", s.mode);
 }
 
-std::vector<Portrait> portraits(const Bench& bench, const std::vector<Snapshot>& moments, int height) {
+std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snapshot>& moments, int height) {
     const report::Frame frame = frame_of(bench);
     const double most = common_displacement(bench, moments);
     const bool bonded = bench.model->bonds.size() > 0;
     const bool flat = bench.model->spheres.planar;
     const View outside = flat ? View{0.0, 0.0, false} : View{30.0, 12.0, false};
     const View inside{0.0, 0.0, !flat};
-    std::vector<Portrait> out;
+    std::vector<NamedPortrait> out;
     const auto add = [&](const Snapshot& at, const std::string& what, const Body& body, const View& view, std::string caption,
                          std::string alt) {
-        out.push_back({at.name + "_" + what + ".png", at.title, std::move(caption), at.title + ": " + std::move(alt),
-                       report::to_png(report::render(body, frame, view, height))});
+        out.push_back(
+            {at.name + "_" + what + ".png",
+             {at.title, std::move(caption), at.title + ": " + std::move(alt), report::to_png(report::render(body, frame, view, height))}});
     };
     for (const auto& at : moments) {
         const auto by_way =

@@ -23,18 +23,15 @@ Snapshot snapshot(const Model& model, const std::string& name, const std::string
 /// Names its values, each after `prefix`.
 void visit_snapshot(const std::string& prefix, Snapshot& snapshot, StateVisitor& visit);
 
-/// A drawing of a specimen and what it shows.
-struct Portrait {
-    std::string file;    ///< "peak_displacement.png"
-    std::string title;   ///< of the moment
-    std::string caption; ///< what the colours mean, with their range
-    std::string alt;     ///< in words, for who cannot see it
-    std::string png;     ///< bytes of the file
+/// A drawing of a specimen and what its file is called: "peak_displacement.png".
+struct NamedPortrait {
+    std::string file;
+    report::Portrait portrait;
 };
 
 /// The views of a test: displacement and damage on the surface, damage in a cut through the axis, cracks as coloured discs. The colours of
 /// a quantity mean the same at all moments. height: of a picture in pixels.
-std::vector<Portrait> portraits(const Bench& bench, const std::vector<Snapshot>& moments, int height);
+std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snapshot>& moments, int height);
 
 /// A still of a specimen for an animation: the cut through the axis, coloured by damage, cracks in front of it.
 std::string still(const Bench& bench, const Snapshot& moment, int height);
