@@ -68,7 +68,8 @@ std::string describe(const Rose& rose) {
         const auto most = std::max_element(part.weight.begin(), part.weight.end());
         const double wide = rose.turn / static_cast<double>(part.weight.size());
         const auto from = static_cast<double>(most - part.weight.begin()) * wide;
-        out += fmt::format(" {}: most between {:.3g} and {:.3g} degrees, {:.3g} % of it.", part.name, from, from + wide, 100.0 * *most / total);
+        out += fmt::format(" {}: most between {:.3g} and {:.3g} degrees, {:.3g} % of it.", part.name, from, from + wide,
+                           100.0 * *most / total);
     }
     return out;
 }

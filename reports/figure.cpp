@@ -85,8 +85,9 @@ std::string data_of(const Plot& plot, const std::vector<int>& markers) {
     out += "],\"curves\":[";
     for (std::size_t k = 0; k < plot.curves.size(); ++k) {
         const Curve& c = plot.curves[k];
-        out += fmt::format("{}{{\"name\":{},\"colour\":{},\"style\":\"{}\",\"width\":{:.3g},\"marker\":{},\"x\":{},\"y\":{}}}", k == 0 ? "" : ",",
-                           quoted(c.name), quoted(c.colour), name_of(c.style), c.width, markers[k], numbers(c.x), numbers(c.y));
+        out += fmt::format("{}{{\"name\":{},\"colour\":{},\"style\":\"{}\",\"width\":{:.3g},\"marker\":{},\"x\":{},\"y\":{}}}",
+                           k == 0 ? "" : ",", quoted(c.name), quoted(c.colour), name_of(c.style), c.width, markers[k], numbers(c.x),
+                           numbers(c.y));
     }
     out += "],\"marks\":[";
     for (std::size_t k = 0; k < plot.marks.size(); ++k) {
@@ -96,8 +97,8 @@ std::string data_of(const Plot& plot, const std::vector<int>& markers) {
 }
 
 std::string key_entry(const std::string& attributes, const std::string& sign, const std::string& name) {
-    return fmt::format("<li{}><svg class=\"sign\" viewBox=\"0 0 24 14\" aria-hidden=\"true\">{}</svg><span>{}</span></li>", attributes, sign,
-                       escape(name));
+    return fmt::format("<li{}><svg class=\"sign\" viewBox=\"0 0 24 14\" aria-hidden=\"true\">{}</svg><span>{}</span></li>", attributes,
+                       sign, escape(name));
 }
 
 std::string key_of(const Plot& plot, const std::vector<int>& markers) {
@@ -120,9 +121,9 @@ std::string key_of(const Plot& plot, const std::vector<int>& markers) {
 std::string figure(const Plot& full) {
     const Plot plot = light(full);
     const auto markers = markers_of(plot);
-    return fmt::format("<figure class=\"plot\"><div class=\"drawing\">{}</div>{}<figcaption>{}</figcaption>"
+    return fmt::format("<figure class=\"plot\"><figcaption>{}</figcaption><div class=\"drawing\">{}</div>{}"
                        "<script type=\"application/json\">{}</script></figure>\n",
-                       to_svg(plot, look), key_of(plot, markers), escape(plot.title), data_of(plot, markers));
+                       escape(plot.title), to_svg(plot, look), key_of(plot, markers), data_of(plot, markers));
 }
 
 std::string figure(const Rose& rose) {
@@ -134,8 +135,8 @@ std::string figure(const Rose& rose) {
     if (!rose.even_name.empty()) {
         key += key_entry("", key_sign({"", {}, {}, "#111", CurveStyle::dashed}, -1, 1, 7), rose.even_name);
     }
-    return fmt::format("<figure class=\"rose\">{}<ul class=\"key\">{}</ul><figcaption><b>{}</b> {}</figcaption></figure>\n", to_svg(rose), key,
-                       escape(rose.title), escape(rose.about));
+    return fmt::format("<figure class=\"rose\">{}<ul class=\"key\">{}</ul><figcaption><b>{}</b> {}</figcaption></figure>\n", to_svg(rose),
+                       key, escape(rose.title), escape(rose.about));
 }
 
 std::string figure(const Picture& p) {

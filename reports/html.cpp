@@ -40,8 +40,8 @@ class Parts {
     /// Begins a part and returns its heading.
     std::string begin(const std::string& title) {
         titles_.push_back(title);
-        return fmt::format("{0}<section aria-labelledby=\"part{1}\">\n<h2 id=\"part{1}\">{2}</h2>\n", titles_.size() > 1 ? "</section>\n" : "",
-                           titles_.size(), escape(title));
+        return fmt::format("{0}<section aria-labelledby=\"part{1}\">\n<h2 id=\"part{1}\">{2}</h2>\n",
+                           titles_.size() > 1 ? "</section>\n" : "", titles_.size(), escape(title));
     }
     [[nodiscard]] std::string end() const { return titles_.empty() ? "" : "</section>\n"; }
 
@@ -67,7 +67,8 @@ template <class Figures> std::string figures(const Figures& list, const char* ki
 
 std::string head(const Record& r) {
     return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src "
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" "
+        "content=\"default-src "
         "'none'; style-src 'sha256-{}'; script-src 'sha256-{}'; img-src data:; base-uri 'none'; form-action 'none'\">\n"
         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{}</title>\n<style>{}</style></head>\n<body>\n"
         "<a class=\"skip\" href=\"#main\">Skip to the results</a>\n",
@@ -76,9 +77,9 @@ std::string head(const Record& r) {
 
 // What is wanted first: the answer, and whether to trust it.
 std::string summary(const Record& r) {
-    std::string out = fmt::format("<header>\n<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<p class=\"ending\"><span class=\"status {}\">{}</span> {}</p>\n",
-                                  escape(r.title), escape(r.subtitle), r.status == "complete" ? "good" : "bad", escape(r.status),
-                                  escape(r.stopped_by));
+    std::string out =
+        fmt::format("<header>\n<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<p class=\"ending\"><span class=\"status {}\">{}</span> {}</p>\n",
+                    escape(r.title), escape(r.subtitle), r.status == "complete" ? "good" : "bad", escape(r.status), escape(r.stopped_by));
     if (!r.key_figures.empty()) {
         out += "<dl class=\"figures-first\">\n";
         for (const auto& f : r.key_figures) {
@@ -141,8 +142,9 @@ std::string to_html(const Record& r) {
     }
     if (!r.plots.empty()) {
         body += parts.begin("Curves");
-        body += "<p class=\"hint\" hidden>Point at a plot for its values. Drag to zoom, with Shift to move; once a plot is clicked, the wheel "
-                "zooms and the arrow keys move the cursor. Names below a plot switch its curves off and on.</p>\n";
+        body +=
+            "<p class=\"hint\" hidden>Point at a plot for its values. Drag to zoom, with Shift to move; once a plot is clicked, the wheel "
+            "zooms and the arrow keys move the cursor. Names below a plot switch its curves off and on.</p>\n";
         body += figures(r.plots, "plots first-wide");
     }
     if (!r.results.empty()) {
@@ -166,8 +168,8 @@ std::string to_html(const Record& r) {
     if (!r.citation.empty()) {
         body += parts.begin("How to cite") + fmt::format("<p class=\"cite\">{}</p>\n", escape(r.citation));
     }
-    return fmt::format("{}<main id=\"main\">\n{}{}{}{}</main>\n<script>{}</script>\n</body></html>\n", head(r), summary(r), parts.contents(),
-                       body, parts.end(), page_script);
+    return fmt::format("{}<main id=\"main\">\n{}{}{}{}</main>\n<script>{}</script>\n</body></html>\n", head(r), summary(r),
+                       parts.contents(), body, parts.end(), page_script);
 }
 
 } // namespace proveta::report

@@ -137,7 +137,8 @@ std::string marker_at(int marker, double x, double y, const std::string& colour)
     case 3: return fmt::format("<path d=\"M{:.1f} {:.1f}l4 4-4 4-4-4z\" fill=\"{}\"/>", x, y - 4, colour);
     case 4: return fmt::format("<path d=\"M{:.1f} {:.1f}l6 6m0-6l-6 6\" stroke=\"{}\" stroke-width=\"2\"/>", x - 3, y - 3, colour);
     case 5:
-        return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.6\"/>", x, y, colour);
+        return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.6\"/>", x, y,
+                           colour);
     default: return fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"{}\"/>", x, y, colour);
     }
 }
@@ -176,8 +177,9 @@ std::string drawn_bars(const Plot& plot, std::size_t which, const Chart& chart) 
         const double right = chart.px(c.x[k] - 0.43 * apart + (place + 1.0) * wide);
         const double top = chart.py(std::max(0.0, c.y[k]));
         const double bottom = chart.py(std::min(0.0, c.y[k]));
-        out += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" fill-opacity=\"{}\" stroke=\"{}\"/>\n",
-                           left, top, std::max(0.5, right - left), bottom - top, c.colour, place > 0.0 ? "0.2" : "0.85", c.colour);
+        out += fmt::format(
+            "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" fill-opacity=\"{}\" stroke=\"{}\"/>\n", left,
+            top, std::max(0.5, right - left), bottom - top, c.colour, place > 0.0 ? "0.2" : "0.85", c.colour);
     }
     return out;
 }
@@ -231,8 +233,9 @@ std::string drawn_axes(const Plot& plot, const Chart& chart, const PlotLook& loo
         const Axis& other = upright ? ax : ay;
         if (other.low <= 0.0 && other.high >= 0.0) {
             const double at = upright ? chart.px(0.0) : chart.py(0.0);
-            out += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#8a949e\"/>\n",
-                               upright ? at : frame.left, upright ? frame.top : at, upright ? at : frame.right, upright ? frame.bottom : at);
+            out +=
+                fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#8a949e\"/>\n",
+                            upright ? at : frame.left, upright ? frame.top : at, upright ? at : frame.right, upright ? frame.bottom : at);
         }
     }
     out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (frame.left + frame.right),
@@ -268,14 +271,13 @@ std::vector<int> markers_of(const Plot& plot) {
 
 std::string key_sign(const Curve& c, int marker, double x, double y) {
     if (c.style == CurveStyle::bars) {
-        return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"10\" fill=\"{}\" fill-opacity=\"{}\" stroke=\"{}\"/>", x + 4, y - 5,
-                           c.colour, marker > 0 ? "0.2" : "0.85", c.colour);
+        return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"10\" fill=\"{}\" fill-opacity=\"{}\" stroke=\"{}\"/>", x + 4,
+                           y - 5, c.colour, marker > 0 ? "0.2" : "0.85", c.colour);
     }
-    const std::string line =
-        c.style == CurveStyle::points
-            ? ""
-            : fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"{4}/>", x, y, x + 22, c.colour,
-                          c.style == CurveStyle::dashed ? dashes : "");
+    const std::string line = c.style == CurveStyle::points
+                                 ? ""
+                                 : fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"{4}/>",
+                                               x, y, x + 22, c.colour, c.style == CurveStyle::dashed ? dashes : "");
     return line + (marker < 0 ? "" : marker_at(marker, x + 11, y, c.colour));
 }
 

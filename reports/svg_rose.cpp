@@ -29,9 +29,10 @@ std::string sector(double from, double to, double inner, double outer, const std
     const Point b = at(to, outer);
     const Point c = at(to, inner);
     const Point d = at(from, inner);
-    return fmt::format("<path d=\"M{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 1 {:.2f} {:.2f}L{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 0 {:.2f} {:.2f}Z\" fill=\"{}\" "
-                       "fill-opacity=\"{}\" stroke=\"{}\" stroke-width=\"1\"/>\n",
-                       a.x, a.y, outer, outer, b.x, b.y, c.x, c.y, inner, inner, d.x, d.y, colour, faint ? "0.3" : "0.85", colour);
+    return fmt::format(
+        "<path d=\"M{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 1 {:.2f} {:.2f}L{:.2f} {:.2f}A{:.2f} {:.2f} 0 0 0 {:.2f} {:.2f}Z\" fill=\"{}\" "
+        "fill-opacity=\"{}\" stroke=\"{}\" stroke-width=\"1\"/>\n",
+        a.x, a.y, outer, outer, b.x, b.y, c.x, c.y, inner, inner, d.x, d.y, colour, faint ? "0.3" : "0.85", colour);
 }
 
 std::string text(Point p, const char* anchor, const std::string& what) {
@@ -64,10 +65,10 @@ std::string to_svg(const Rose& rose) {
     // A quarter has its centre in the lower left corner; half a turn is drawn on both sides, since a direction has no sense.
     const double left = quarter > 0.0 ? -24.0 : -reach - 34.0;
     const double high = quarter > 0.0 ? reach + 52.0 : 2.0 * reach + 52.0;
-    std::string out = fmt::format("<svg viewBox=\"{} {} {} {}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\" font-family=\"sans-serif\" "
-                                  "font-size=\"{}\">\n<title>{}</title><desc>{}</desc>\n",
-                                  left, -reach - 24.0, reach + 34.0 - left, high, quarter > 0.0 ? 9 : 14, escape(rose.title),
-                                  escape(describe(rose)));
+    std::string out =
+        fmt::format("<svg viewBox=\"{} {} {} {}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\" font-family=\"sans-serif\" "
+                    "font-size=\"{}\">\n<title>{}</title><desc>{}</desc>\n",
+                    left, -reach - 24.0, reach + 34.0 - left, high, quarter > 0.0 ? 9 : 14, escape(rose.title), escape(describe(rose)));
     if (most <= 0.0) {
         return out + text({0.0, 0.0}, "middle", "none") + "</svg>\n";
     }
@@ -75,8 +76,9 @@ std::string to_svg(const Rose& rose) {
     const double wide = rose.turn / static_cast<double>(sectors);
     for (const double part : {0.5, 1.0}) {
         const double r = reach * std::sqrt(part);
-        out += quarter > 0.0 ? fmt::format("<path d=\"M0 {0:.1f}A{1:.1f} {1:.1f} 0 0 1 {1:.1f} 0\" fill=\"none\" stroke=\"#ddd\"/>\n", -r, r)
-                             : fmt::format("<circle r=\"{:.1f}\" fill=\"none\" stroke=\"#ddd\"/>\n", r);
+        out += quarter > 0.0
+                   ? fmt::format("<path d=\"M0 {0:.1f}A{1:.1f} {1:.1f} 0 0 1 {1:.1f} 0\" fill=\"none\" stroke=\"#ddd\"/>\n", -r, r)
+                   : fmt::format("<circle r=\"{:.1f}\" fill=\"none\" stroke=\"#ddd\"/>\n", r);
     }
     const int turns = rose.turn > 90.0 && rose.turn <= 180.0 ? 2 : 1;
     for (std::size_t k = 0; k < sectors && total > 0.0; ++k) {
@@ -86,7 +88,8 @@ std::string to_svg(const Rose& rose) {
             for (std::size_t p = 0; p < rose.parts.size(); ++p) {
                 const double share = rose.parts[p].weight[k] / total;
                 if (share > 0.0) {
-                    out += sector(from + 0.04 * wide, from + 0.96 * wide, radius(below), radius(below + share), rose.parts[p].colour, p > 0);
+                    out +=
+                        sector(from + 0.04 * wide, from + 0.96 * wide, radius(below), radius(below + share), rose.parts[p].colour, p > 0);
                 }
                 below += share;
             }

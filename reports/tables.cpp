@@ -18,7 +18,8 @@ bool numeric(const std::string& text) {
 }
 
 std::string framed(const std::string& name, const std::string& kind, const std::string& rows) {
-    return fmt::format("<div class=\"scroll\" role=\"region\" aria-label=\"{0}\"><table class=\"{1}\"><caption>{0}</caption>\n{2}</table></div>\n",
+    return fmt::format("<div class=\"scroll\" role=\"region\" aria-label=\"{0}\"><table "
+                       "class=\"{1}\"><caption><span>{0}</span></caption>\n{2}</table></div>\n",
                        escape(name), kind, rows);
 }
 
@@ -53,8 +54,8 @@ std::string table(const std::vector<Scalar>& results) {
         const Scalar r = readable(result);
         const std::string value =
             r.value ? fmt::format("<td class=\"num\">{:.5g}</td>", *r.value) : "<td class=\"none\">not determined</td>";
-        out += fmt::format("<tr><th scope=\"row\">{}</th>{}<td class=\"unit\">{}</td><td class=\"how\">{}</td></tr>\n", escape(r.title), value,
-                           r.value ? escape(r.unit) : "", escape(r.formula));
+        out += fmt::format("<tr><th scope=\"row\">{}</th>{}<td class=\"unit\">{}</td><td class=\"how\">{}</td></tr>\n", escape(r.title),
+                           value, r.value ? escape(r.unit) : "", escape(r.formula));
     }
     return framed("All results", "results", out + "</tbody>");
 }
