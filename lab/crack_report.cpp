@@ -43,8 +43,6 @@ double true_mass(const Model& m, std::size_t k) {
     return volume * m.materials[static_cast<std::size_t>(m.spheres.material[k])].density;
 }
 
-std::string mass_text(double kg) { return kg < 1.0 ? fmt::format("{:.4g} g", 1e3 * kg) : fmt::format("{:.4g} kg", kg); }
-
 } // namespace
 
 std::vector<CrackFacet> crack_facets(const Model& m) {
@@ -125,10 +123,10 @@ report::TextTable fragment_table(const Model& m) {
     }
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.mass > b.mass; });
     report::TextTable t{"Fragments at the end: what bonds still hold together",
-                        {{"Fragment", "Number", "Spheres", "Mass", "Share of the mass [%]"}}};
+                        {{"Fragment", "Number", "Spheres", "Mass [kg]", "Share of the mass [%]"}}};
     const auto add = [&](const std::string& name, std::size_t n, const Piece& sum) {
-        t.rows.push_back(
-            {name, std::to_string(n), std::to_string(sum.spheres), mass_text(sum.mass), fmt::format("{:.3g}", 100.0 * sum.mass / total)});
+        t.rows.push_back({name, std::to_string(n), std::to_string(sum.spheres), fmt::format("{:.4g}", sum.mass),
+                          fmt::format("{:.3g}", 100.0 * sum.mass / total)});
     };
     std::size_t n_rest = 0;
     std::size_t n_single = 0;

@@ -260,9 +260,11 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
         for (const auto& portrait : portraits(bench, data.moments, static_cast<int>(deck.output.pictures))) {
             write_picture(out, portrait.file, portrait.portrait.png);
         }
-        constexpr int on_page = 440; // pixels
-        for (auto& portrait : portraits(bench, data.moments, on_page)) {
-            record.portraits.push_back(std::move(portrait.portrait));
+        constexpr int on_page = 380; // pixels
+        for (auto& [file, portrait] : portraits(bench, data.moments, on_page)) {
+            if (file != "past_peak_displacement.png" && file != "peak_cracks.png") { // a page that can still be sent by mail
+                record.portraits.push_back(std::move(portrait));
+            }
         }
     }
     report::write_file(out.file("report.html"), report::to_html(record));

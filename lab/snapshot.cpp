@@ -40,9 +40,11 @@ template <class ColourOf> std::vector<Ball> balls(const Bench& bench, const Snap
     return out;
 }
 
-// Failed bonds as round plates of the bond's area, between where its spheres are now.
+// Failed bonds as round plates of the bond's area, between where its spheres are now: those in a layer of two grains about the axis, or all
+// of a plate.
 std::vector<Disc> cracks(const Bench& bench, const Snapshot& at) {
     const Bonds& b = bench.model->bonds;
+    const bool flat = bench.model->spheres.planar;
     std::vector<Disc> out;
     for (std::size_t k = 0; k < at.mode.size(); ++k) {
         if (at.mode[k] == 0) {
@@ -51,7 +53,8 @@ std::vector<Disc> cracks(const Bench& bench, const Snapshot& at) {
         const Vec3 from = at.position.at(static_cast<std::size_t>(b.i[k]));
         const Vec3 to = at.position.at(static_cast<std::size_t>(b.j[k]));
         const Vec3 along = to - from;
-        if (along.norm() > 0.0) {
+        const bool near = flat || std::fabs(0.5 * (from.y() + to.y())) < bench.grain;
+        if (along.norm() > 0.0 && near) {
             out.push_back({0.5 * (from + to), along.normalized(), std::sqrt(b.area[k] / std::numbers::pi),
                            at.mode[k] == static_cast<std::uint8_t>(FailureMode::tension) ? in_tension : in_shear});
         }
@@ -121,11 +124,13 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
              {at.title, std::move(caption), at.title + ": " + std::move(alt), report::to_png(report::render(body, frame, view, height))}});
     };
     for (const auto& at : moments) {
-        const auto by_way =
-            balls(bench, at, [&](std::size_t k) { return report::sequential(most > 0.0 ? moved(bench, at, k) / most : 0.0); });
-        add(at, "displacement", {by_way, {}}, outside,
-            fmt::format("Displacement from the start: dark blue 0, yellow {:.3g} mm and more.", 1e3 * most),
-            "the specimen from outside, its spheres coloured by how far they have moved");
+        if (!bonded || &at != &moments.front()) { // nothing has moved at first
+            const auto by_way =
+                balls(bench, at, [&](std::size_t k) { return report::sequential(most > 0.0 ? moved(bench, at, k) / most : 0.0); });
+            add(at, "displacement", {by_way, {}}, outside,
+                fmt::format("Displacement from the start: dark blue 0, yellow {:.3g} mm and more.", 1e3 * most),
+                "the specimen from outside, its spheres coloured by how far they have moved");
+        }
         if (!bonded) {
             continue;
         }
@@ -134,11 +139,12 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
         add(at, "cut", {by_damage, {}}, inside, "Damage in a cut through the axis: grey 0, dark red all bonds of a sphere failed.",
             fmt::format("a cut through the axis, spheres coloured by damage; {} bonds have failed", n));
         if (n > 0) {
-            add(at, "cracks", {{}, cracks(bench, at)}, outside,
-                fmt::format("Failed bonds as discs of the bond's area: orange {} in tension, blue {} in shear.",
-                            failed(at, FailureMode::tension), failed(at, FailureMode::shear)),
-                fmt::format("the cracks alone, {} in tension and {} in shear", failed(at, FailureMode::tension),
-                            failed(at, FailureMode::shear)));
+            add(at, "cracks", {{}, cracks(bench, at)}, {0.0, 0.0, false},
+                fmt::format(
+                    "Failed bonds within a grain of that cut, as discs of their area: orange in tension, blue in shear; of all {} and {}.",
+                    failed(at, FailureMode::tension), failed(at, FailureMode::shear)),
+                fmt::format("the cracks about a cut through the axis; in all {} bonds failed in tension and {} in shear",
+                            failed(at, FailureMode::tension), failed(at, FailureMode::shear)));
         }
     }
     return out;

@@ -122,9 +122,9 @@ std::string key_of(const Plot& plot, const std::vector<int>& markers) {
 std::string figure(const Plot& full) {
     const Plot plot = light(full);
     const auto markers = markers_of(plot);
-    return fmt::format("<figure class=\"plot\"><div class=\"drawing\">{}</div>{}<figcaption>{}</figcaption>"
+    return fmt::format("<figure class=\"plot\"><figcaption>{}</figcaption><div class=\"drawing\">{}</div>{}"
                        "<script type=\"application/json\">{}</script></figure>\n",
-                       to_svg(plot, look), key_of(plot, markers), escape(plot.title), data_of(plot, markers));
+                       escape(plot.title), to_svg(plot, look), key_of(plot, markers), data_of(plot, markers));
 }
 
 std::string figure(const Rose& rose) {

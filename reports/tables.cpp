@@ -18,9 +18,9 @@ bool numeric(const std::string& text) {
 }
 
 std::string framed(const std::string& name, const std::string& kind, const std::string& rows) {
-    return fmt::format(
-        "<div class=\"scroll\" role=\"region\" aria-label=\"{0}\"><table class=\"{1}\"><caption>{0}</caption>\n{2}</table></div>\n",
-        escape(name), kind, rows);
+    return fmt::format("<div class=\"scroll\" role=\"region\" aria-label=\"{0}\"><table "
+                       "class=\"{1}\"><caption><span>{0}</span></caption>\n{2}</table></div>\n",
+                       escape(name), kind, rows);
 }
 
 } // namespace

@@ -34,19 +34,17 @@ class View {
 
   refresh() {
     this.plot.draw();
-    this.back.disabled = !this.plot.zoomed;
+    this.back.hidden = !this.plot.zoomed;
     this.leave();
   }
 
   tools() {
-    const bar = document.createElement('div');
-    bar.className = 'tools';
-    this.figure.insertBefore(bar, this.figure.querySelector('figcaption'));
+    const bar = add(this.figure, 'div', { class: 'tools' });
     this.back = add(bar, 'button', { type: 'button' }, 'Show all');
-    this.back.addEventListener('click', () => { this.plot.reset(); this.refresh(); });
+    this.back.addEventListener('click', () => { this.plot.reset(); this.refresh(); this.box.focus(); });
     this.overlays = add(bar, 'div', { class: 'overlays' });
-    const { rows, curves } = this.plot.data;
-    if (rows.length || curves.some((c) => c.style === 'bars')) return;
+    const { x, y } = this.plot.data;
+    if (!x.includes('[') || !y.includes('[')) return; // not something that is measured: it has no unit
     const label = document.createElement('label');
     label.className = 'file';
     label.textContent = 'Overlay a measured curve (CSV) ';
@@ -169,12 +167,12 @@ class View {
         down.set(event.pointerId, [x, y]);
         const now = spread();
         if (now.far > 10) this.plot.zoomAt(before.far / now.far, now.x, now.y);
-        this.back.disabled = !this.plot.zoomed;
+        this.back.hidden = !this.plot.zoomed;
       } else if (down.size === 1 && start && event.pointerType === 'mouse') {
         if (event.shiftKey) {
           this.plot.pan(x - start[0], y - start[1]);
           start = [x, y];
-          this.back.disabled = !this.plot.zoomed;
+          this.back.hidden = !this.plot.zoomed;
         } else {
           this.select(start, [x, y]);
         }
@@ -199,7 +197,7 @@ class View {
       event.preventDefault();
       const [x, y] = where(event);
       this.plot.zoomAt(Math.exp(0.0015 * event.deltaY), x, y);
-      this.back.disabled = !this.plot.zoomed;
+      this.back.hidden = !this.plot.zoomed;
       this.point(x, y);
     }, { passive: false });
   }

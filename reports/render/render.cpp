@@ -1,5 +1,7 @@
 #include "reports/render/render.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -31,7 +31,7 @@ function contrasts() {
   const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (texts.nextNode()) {
     const e = texts.currentNode.parentElement;
-    if (!texts.currentNode.textContent.trim() || !e.checkVisibility() || /^(script|style|title|desc)$/i.test(e.tagName) || e.disabled) continue;
+    if (!texts.currentNode.textContent.trim() || !e.checkVisibility() || /^(script|style|title|desc)$/i.test(e.tagName)) continue;
     const style = getComputedStyle(e);
     const front = light(parts(e instanceof SVGElement ? style.fill : style.color).slice(0, 3));
     const back = light(behind(e));
@@ -88,7 +88,7 @@ async function usePlot(page) {
   await page.mouse.wheel(0, -300);
   await page.waitForTimeout(200);
   out.wheeled = await ticks(page, 0);
-  const reset = page.locator('figure.plot .tools button').first();
+  const reset = page.locator('figure.plot .tools button').first(); // there while something is out of view
   await reset.click();
   out.reset = await ticks(page, 0);
   await box.scrollIntoViewIfNeeded();
@@ -154,6 +154,7 @@ try {
     await page.reload();
     await page.waitForTimeout(200);
     await page.screenshot({ path: `${process.env.PROVETA_PICTURES}_desk.png`, fullPage: true });
+    await page.emulateMedia({ media: null });
     await page.pdf({ path: `${process.env.PROVETA_PICTURES}.pdf`, preferCSSPageSize: true });
   }
   console.log(JSON.stringify(found));
