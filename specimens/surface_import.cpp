@@ -4,7 +4,6 @@
 #include <vtkCellArray.h>
 #include <vtkIdList.h>
 #include <vtkOBJReader.h>
-#include <vtkPLYReader.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
 #include <vtkSTLReader.h>
@@ -20,6 +19,7 @@
 #include <stdexcept>
 
 #include "specimens/memory.hpp"
+#include "specimens/ply_import.hpp"
 #include "specimens/vtk_check.hpp"
 #include "specimens/vtk_reading.hpp"
 
@@ -65,7 +65,7 @@ vtk::Read<vtkPolyData> read_as(const std::string& type, const std::string& file)
         return read_with<vtkOBJReader>(file);
     }
     if (type == ".ply") {
-        return read_with<vtkPLYReader>(file);
+        return {read_ply(file), ""};
     }
     if (type == ".vtk") {
         return vtk::read_text_with<vtkPolyDataReader>(file, vtk::checked_polygons(file));

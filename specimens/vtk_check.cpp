@@ -236,26 +236,6 @@ std::string checked_polygons(const std::string& file) {
     return legacy.text();
 }
 
-void check_xml(const std::string& file) {
-    const std::string text = text_of(file);
-    for (const std::string_view name : {"NumberOfPoints", "NumberOfCells", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
-                                        "NumberOfPolys", "NumberOfComponents", "NumberOfTuples"}) {
-        for (auto at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-            const auto open = std::min(text.find_first_not_of("= \t\r\n", at + name.size()), text.size() - 1);
-            const auto close = text.find(text[open], open + 1);
-            if ((text[open] != '"' && text[open] != '\'') || close == std::string::npos) {
-                continue; // no attribute
-            }
-            const std::string_view found = std::string_view(text).substr(open + 1, close - open - 1);
-            long long value = 0;
-            if (!parse(found, value) || value < 0 || static_cast<std::size_t>(value) / 1000 > text.size()) {
-                throw std::runtime_error(
-                    fmt::format("{}: {} is {}, which a file of {} bytes cannot hold", file, name, shown(found), text.size()));
-            }
-        }
-    }
-}
-
 void check_cells(vtkCellArray& cells, long long points, const std::string& file) {
     vtkDataArray* offsets = cells.GetOffsetsArray();
     vtkDataArray* ids = cells.GetConnectivityArray();
