@@ -58,6 +58,8 @@ def coloured(source, view, array, where="POINTS"):
     ColorBy(display, (where,) + array)
     display.RescaleTransferFunctionToDataRange(True)
     display.SetScalarBarVisibility(view, True)
+    bar = GetScalarBar(GetColorTransferFunction(array[0]), view)
+    bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
     return display
 
 
@@ -78,15 +80,22 @@ if bonds is not None:
     broken = Threshold(registrationName="cracks", Input=bonds)
     broken.Scalars = ["CELLS", "mode"]
     broken.LowerThreshold, broken.UpperThreshold = 0.5, 2.5
+    front = Clip(Input=broken, ClipType="Plane")
+    front.ClipType.Origin = middle
+    front.ClipType.Normal = [0.0, -1.0, 0.0]
+    layer = Clip(registrationName="cracks about the axis", Input=front, ClipType="Plane")
+    layer.ClipType.Origin = [middle[0], middle[1] + 0.04 * size, middle[2]]
+    layer.ClipType.Normal = [0.0, 1.0, 0.0]
     views["cracks"] = view_of("cracks")
-    shown = coloured(broken, views["cracks"], ("mode",), "CELLS")
-    shown.LineWidth = 4.0
+    shown = coloured(layer, views["cracks"], ("mode",), "CELLS")
+    shown.LineWidth = 3.0
 for view in views.values():
     for part, opacity in ((platens, 0.3), (membrane, 0.25)):
         if part is not None:
             display = Show(part, view)
             display.Opacity = opacity
-            ColorBy(display, None)
+            display.ColorArrayName = ["POINTS", ""]
+            display.AmbientColor = display.DiffuseColor = [0.4, 0.45, 0.5]
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 GetAnimationScene().AnimationTime = times[-1]
 if "--save" in sys.argv:
