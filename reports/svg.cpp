@@ -210,7 +210,9 @@ std::string drawn(const Plot& plot, std::size_t which, int marker, const Chart& 
 }
 
 std::string drawn_axes(const Plot& plot, const Chart& chart, const PlotLook& look) {
-    const auto& [ax, ay, frame, height] = chart;
+    const Axis& ax = chart.ax;
+    const Axis& ay = chart.ay;
+    const Frame& frame = chart.frame;
     std::string out;
     for (double v = ax.low; v <= ax.high + 0.5 * ax.tick; v += ax.tick) {
         out += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/>"
@@ -239,7 +241,7 @@ std::string drawn_axes(const Plot& plot, const Chart& chart, const PlotLook& loo
         }
     }
     out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (frame.left + frame.right),
-                       height - 10, escape(plot.x_title));
+                       chart.height - 10, escape(plot.x_title));
     return out + fmt::format("<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n",
                              0.5 * (frame.top + frame.bottom), escape(plot.y_title));
 }

@@ -41,6 +41,7 @@ function overlay(view, file, text) {
   const number = plot.data.curves.filter((c) => c.measured).length;
   const curve = { name: file, colour: colours[number % colours.length], style: 'points', marker: (number + 5) % 6, width: 1.8, measured: true, x: [], y: [] };
   const line = add(view.overlays, 'div', { class: 'overlay' });
+  marker(add(line, 'svg', { viewBox: '0 0 14 14', width: 14, height: 14, 'aria-hidden': 'true' }), curve.marker, 7, 7, curve.colour);
   add(line, 'b', {}, file);
   const choice = (axis, preset) => {
     const label = add(line, 'label', {}, axis === 'x' ? 'across ' : 'up ');

@@ -95,7 +95,13 @@ class View {
     if (!found.length) return;
     const far = ({ curve, k }) => Math.hypot(plot.px(curve.x[k]) - x, plot.py(curve.y[k]) - y);
     const first = found.reduce((a, b) => (far(b) < far(a) ? b : a));
-    this.show(found, first);
+    this.show(this.beside(found, first), first);
+  }
+
+  // The points that stand about where the first one does; a curve that ends elsewhere has nothing to say there.
+  beside(found, first) {
+    const at = ({ curve, k }) => this.plot.px(curve.x[k]);
+    return found.filter((one) => Math.abs(at(one) - at(first)) < 30);
   }
 
   show(found, first) {
@@ -261,14 +267,22 @@ class View {
     const [x, y] = [plot.px(curve.x[k]), plot.py(curve.y[k])];
     const others = curves.filter((c) => c !== curve).map((c) => ({ curve: c, k: plot.nearest(c, x, y) })).filter((o) => o.k >= 0);
     const first = { curve, k };
-    this.show([first, ...others], first);
+    this.show([first, ...this.beside(others, first)], first);
     const { rows } = plot.data;
     this.said.textContent = `${curve.name || rows[Math.round(-curve.y[k]) - 1] || ''} ${plot.data.x} ${shown(curve.x[k], 5)}`
       + (rows.length ? '' : `, ${plot.data.y} ${shown(curve.y[k], 5)}`);
   }
 }
 
-for (const figure of document.querySelectorAll('figure.plot')) new View(figure);
+const views = [...document.querySelectorAll('figure.plot')].map((figure) => new View(figure));
+function print(paper) { // at a width at which letters are as large on paper as the text beside them
+  for (const view of views) {
+    view.plot.paper = paper && (view.box.clientWidth > 600 ? 680 : 380);
+    view.refresh();
+  }
+}
+addEventListener('beforeprint', () => print(true));
+addEventListener('afterprint', () => print(false));
 for (const box of document.querySelectorAll('.scroll')) { // reached by the keyboard where they scroll
   if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
 }

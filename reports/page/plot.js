@@ -43,6 +43,7 @@ class Plot {
     this.svg = svg;
     this.data = data;
     this.hidden = new Set();
+    this.paper = 0; // width to be drawn at for the printer, or 0
     this.full = data.range;
     this.range = [...this.full];
     this.id = 'area' + Plot.count++;
@@ -82,17 +83,20 @@ class Plot {
 
   // Widens the whole view, and the current one with it, to what a new curve needs.
   include(curve) {
+    const edge = this.full;
     const reach = [Math.min, Math.max, Math.min, Math.max];
     curve.x.forEach((x, k) => {
       this.full = this.full.map((v, side) => reach[side](v, side < 2 ? x : curve.y[k]));
     });
+    const room = [0, 0, 2, 2].map((k) => 0.03 * (this.full[k + 1] - this.full[k])); // so that no sign is cut at the edge
+    this.full = this.full.map((v, side) => (v === edge[side] ? v : v + (side % 2 ? 1 : -1) * room[side]));
     this.range = [...this.full];
   }
 
   layout() {
     const rows = this.data.rows;
     const letter = 7;
-    this.width = Math.max(240, Math.round(this.svg.parentNode.clientWidth));
+    this.width = this.paper || Math.max(240, Math.round(this.svg.parentNode.clientWidth));
     this.height = rows.length ? 96 + 40 * rows.length : Math.round(Math.min(430, Math.max(270, 0.64 * this.width)));
     const [x0, x1, y0, y1] = this.range;
     this.yTicks = rows.length ? rows.map((_, k) => -1 - k) : ticks(y0, y1, this.height > 300 ? 6 : 5);
