@@ -108,7 +108,8 @@ std::uint64_t memory_needed(std::uint64_t spheres, double coordination) {
     constexpr double program = 40e6;
     constexpr double of_sphere = 1800.0;
     constexpr double of_bond = 350.0;
-    return static_cast<std::uint64_t>(program + static_cast<double>(spheres) * (of_sphere + of_bond * 0.5 * coordination));
+    constexpr double most = 1e19; // that the number of bytes can be
+    return static_cast<std::uint64_t>(std::min(most, program + static_cast<double>(spheres) * (of_sphere + of_bond * 0.5 * coordination)));
 }
 
 void require_memory(std::uint64_t spheres, const std::string& source, const std::string& path, const std::string& found) {
@@ -130,7 +131,7 @@ void require_memory(const SpecimenRecipe& r, const std::string& source, const st
     const double stones = particles_of(r.particles, shape_of(r));
     const double each = r.particles.form == "stone" ? static_cast<double>(r.particles.spheres) : 1.0;
     const char* key = r.particles.count.word.empty() ? "/count" : r.particles.size.word.empty() ? "/size" : "/grading";
-    require_memory(static_cast<std::uint64_t>(stones * each), source, path + "/particles" + key,
+    require_memory(static_cast<std::uint64_t>(std::min(stones * each, 1e15)), source, path + "/particles" + key,
                    fmt::format("{:.0f} particles of up to {:.0f} spheres", stones, each));
 }
 
