@@ -3,6 +3,7 @@
 #   ./bootstrap.sh run    install, build, run examples/ucs.json into results/ucs
 #   ./bootstrap.sh test   install, build, run the tests (unit, verification, system)
 #   ./bootstrap.sh build  install and build only
+#   ./bootstrap.sh docs   install, build, make the documentation as a site: build/site/index.html
 set -euo pipefail
 cd "$(dirname "$0")"
 build=build/release
@@ -42,12 +43,21 @@ run)
 test)
     install_packages
     build_program
-    # The schema test wants a JSON schema validator.
-    [ -d "$node_tools/node_modules/ajv" ] || npm install --silent --no-audit --no-fund --prefix "$node_tools" ajv@8 >/dev/null
+    # The schema test wants a JSON schema validator, the test of the pages what drives a browser.
+    for tool in ajv@8 playwright-core@1; do
+        [ -d "$node_tools/node_modules/${tool%@*}" ] || npm install --silent --no-audit --no-fund --prefix "$node_tools" "$tool" >/dev/null
+    done
     PROVETA_NODE_MODULES="$PWD/$node_tools/node_modules" ctest --preset release -L 'unit|verification|system' -j 2
     ;;
+docs)
+    install_packages
+    build_program
+    /usr/bin/python3 docs/site.py "$build/proveta" . build/site_pages
+    mkdocs build --quiet --strict
+    echo "the documentation is in build/site/index.html"
+    ;;
 *)
-    sed -n '2,5s/^# \{0,1\}//p' "$0"
+    sed -n '2,6s/^# \{0,1\}//p' "$0"
     exit 2
     ;;
 esac

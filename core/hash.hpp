@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,12 @@ namespace proveta {
 /// FNV-1a, 64 bits, byte by byte from the lowest.
 class Hash {
   public:
+    void mix(const char* bytes, std::size_t size) {
+        for (std::size_t k = 0; k < size; ++k) {
+            value_ = (value_ ^ static_cast<unsigned char>(bytes[k])) * 1099511628211ull;
+        }
+    }
+
     void mix(std::uint64_t word) {
         for (int byte = 0; byte < 8; ++byte) {
             value_ = (value_ ^ ((word >> (8 * byte)) & 0xffu)) * 1099511628211ull;

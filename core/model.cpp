@@ -443,19 +443,14 @@ void Model::motion(const std::vector<double>& speeds, bool measure) {
     }
 }
 
-void Model::check() const {
-    const double sane = numerics_.fastest * mean_radius_ / dt_;
-    if (!std::isfinite(ledger_.spent()) || !std::isfinite(fastest_) || fastest_ > sane) {
-        throw NumericalFailure(text("at step ", steps_, " (time ", time_, " s) the calculation diverged: fastest sphere ", fastest_,
-                                    " m/s, energy ", ledger_.spent(), " J"));
-    }
-}
-
 void Model::restored() {
     const std::size_t n = contacts.i.size();
     contacts.normal.assign(n, 0.0);
     set_up_contacts(spheres, materials, weight_, contacts);
     set_up_walls(spheres, materials, walls);
+    for (std::size_t p = 0; p < walls.platens.size(); ++p) {
+        walls.platens[p].reaction = reactions_[p];
+    }
     arrange();
     bonds.worn.assign(bonds.size(), 1);
     broken_ = bonds.size() - static_cast<std::size_t>(std::count(bonds.mode.begin(), bonds.mode.end(), std::uint8_t{0}));

@@ -36,6 +36,7 @@ struct Numerics {
     Vec3 gravity = Vec3::Zero();          ///< m/s2
     double fastest = 0.1;                 ///< mean radii that a sphere may go in a step; who is faster shows that the calculation diverged
     std::optional<double> overlap_growth; ///< by which overlaps are taken to grow until the next search, m; empty: the skin, their most
+    double energy_made = 0.5;             ///< over what was put in: more that comes from nothing shows that the calculation diverged
     bool refuse_unstable = true;          ///< false only to study how a scheme diverges: a step above the stable one is kept
 };
 
@@ -57,7 +58,8 @@ struct UnstableStep : std::runtime_error {
     double asked, stable; ///< s
 };
 
-/// The calculation lost its footing: a quantity stopped being a number or left all bounds.
+/// The calculation lost its footing: a quantity stopped being a number, a sphere ran away, energy came from nothing. The message says when,
+/// where, and the probable cause.
 struct NumericalFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -68,7 +68,12 @@ void declare(input::Visitor& v, NumericsInput& n) {
 void declare(input::Visitor& v, OutputInput& o) {
     v.integer("samples", o.samples, 10, 1000000, "rows of curve.csv over the whole strain range");
     v.integer("fields", o.fields, 0, 10000, "VTK field files over the whole strain range; 0: none");
-    v.number("checkpoint_every", o.checkpoint_every, Unit::time, at_least(0), "wall time between checkpoints; 0: only at the end");
+    v.integer(
+        "pictures", o.pictures, 0, 4000,
+        "height in pixels of the PNG pictures: the specimen intact, at the peak, past it and at the end, and a still at every field file; "
+        "0: none");
+    v.number("checkpoint_every", o.checkpoint_every, Unit::time, at_least(0),
+             "wall time between checkpoints; 0: only where a stage ends, and at the end");
 }
 
 void declare(input::Visitor& v, Deck& d) {

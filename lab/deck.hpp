@@ -41,6 +41,7 @@ struct NumericsInput {
 struct OutputInput {
     std::int64_t samples = 400;
     std::int64_t fields = 10;
+    std::int64_t pictures = 1000;
     double checkpoint_every = 30.0;
 };
 

@@ -35,6 +35,13 @@ double Instruments::area(const Model& m, const Press& press) {
     return enclosed_volume(m.walls.bodies.front()) / (m.walls.platens[1].position - m.walls.platens[0].position);
 }
 
+void Instruments::visit_state(const std::string& prefix, StateVisitor& visit) {
+    visit(prefix + "off", off_); // as of the last sample, which the bonds now do not tell
+    visit(prefix + "off_at", off_at_);
+    visit(prefix + "broken_in_tension", broken_tension_);
+    visit(prefix + "broken_in_shear", broken_shear_);
+}
+
 double Instruments::girth_strain(const Model& m) const { return gauges_.girth_strain(m.spheres.position, off_); }
 
 // Least squares of u = a + G x over the spheres of the region.
@@ -159,9 +166,9 @@ report::Table Instruments::empty_energy() const {
 void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& curve, report::Table& energy) {
     const Model& m = *bench.model;
     const Press& press = bench.press;
-    if (m.broken() != off_at_) {
+    if (const auto broken = static_cast<std::int64_t>(m.broken()); broken != off_at_) {
         off_ = detached_spheres(m);
-        off_at_ = m.broken();
+        off_at_ = broken;
     }
     const double bottom = m.walls.platens[0].load();
     const double top = m.walls.platens[1].load();

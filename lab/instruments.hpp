@@ -32,6 +32,9 @@ class Instruments {
     /// Strain of the girth at mid-height from the lateral skin, positive when the specimen gets thinner; cheap.
     [[nodiscard]] double girth_strain(const Model& model) const;
 
+    /// Names what later samples depend on, each name after `prefix`.
+    void visit_state(const std::string& prefix, StateVisitor& visit);
+
     /// Counts a failed bond.
     void count(FailureMode mode) { ++(mode == FailureMode::tension ? broken_tension_ : broken_shear_); }
 
@@ -54,9 +57,9 @@ class Instruments {
     Shape::Region middle_;            // the whole section over the middle of the height
     std::vector<std::size_t> inside_; // spheres of the inner region
     std::vector<std::uint8_t> off_;   // detached spheres
-    std::size_t off_at_ = 0;          // number of failed bonds that it was found for
-    std::size_t broken_tension_ = 0;
-    std::size_t broken_shear_ = 0;
+    std::int64_t off_at_ = 0;         // number of failed bonds that it was found for
+    std::int64_t broken_tension_ = 0;
+    std::int64_t broken_shear_ = 0;
 };
 
 } // namespace proveta

@@ -1,7 +1,10 @@
 #include "lab/output_folder.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 #include <vector>
 
@@ -37,6 +40,12 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     if (!fs::is_empty(path, error) && !earlier) {
         refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
     }
+    lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // A file system without locks is no reason to refuse.
+    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        close(lock_);
+        refuse("into which another run is writing now", "a folder of its own");
+    }
 }
 
 namespace {
@@ -61,9 +70,29 @@ std::vector<fs::path> members_in(const fs::path& folder) {
     return out;
 }
 
+// What a process that was killed did not finish writing.
+void remove_halves(const fs::path& folder) {
+    std::vector<fs::path> halves;
+    for (const auto& part : {folder, folder / "fields", folder / "pictures"}) {
+        std::error_code error;
+        for (const auto& entry : fs::directory_iterator(part, error)) {
+            if (entry.path().extension() == ".partial" || entry.path().extension() == ".next") {
+                halves.push_back(entry.path());
+            }
+        }
+    }
+    for (const auto& half : halves) {
+        std::error_code gone;
+        fs::remove(half, gone);
+    }
+}
+
 } // namespace
 
 OutputFolder::~OutputFolder() {
+    if (lock_ >= 0) {
+        close(lock_);
+    }
     if (!begun_ && !first_made_.empty()) {
         std::error_code ignored;
         fs::remove_all(first_made_, ignored);
@@ -75,12 +104,41 @@ void OutputFolder::begin() {
     for (const auto& member : members_in(path_)) {
         fs::remove_all(member);
     }
-    for (const char* name : {"report.html", "summary.json", "manifest.json", "curve.csv", "events.csv", "acoustic.csv", "energy.csv",
-                             "checkpoint.h5", "series.pvd", "series.csv", "mean_curves", "fields", "table.csv", "table.h5", "failures.csv",
-                             "sensitivity.csv", "curve_sensitivity.csv"}) {
+    for (const char* name : {"report.html",
+                             "summary.json",
+                             "manifest.json",
+                             "curve.csv",
+                             "events.csv",
+                             "acoustic.csv",
+                             "energy.csv",
+                             "checkpoint.h5",
+                             "checkpoint.earlier.h5",
+                             "rate_check.h5",
+                             "rate_check.earlier.h5",
+                             "series.pvd",
+                             "series.csv",
+                             "mean_curves",
+                             "fields",
+                             "pictures",
+                             "spheres.pvd",
+                             "bonds.pvd",
+                             "platens.pvd",
+                             "membrane.pvd",
+                             "views.py",
+                             "table.csv",
+                             "table.h5",
+                             "failures.csv",
+                             "sensitivity.csv",
+                             "curve_sensitivity.csv"}) {
         fs::remove_all(path_ / name);
     }
     fs::create_directories(path_); // a series that was cleared may have held it
+    remove_halves(path_);
+}
+
+void OutputFolder::go_on() {
+    begun_ = true;
+    remove_halves(path_);
 }
 
 } // namespace proveta

@@ -12,8 +12,12 @@ namespace proveta {
 namespace {
 
 volatile std::sig_atomic_t interrupt_count = 0;
+volatile std::sig_atomic_t first_signal = SIGINT;
 
 extern "C" void on_interrupt(int signal) {
+    if (interrupt_count == 0) {
+        first_signal = signal;
+    }
     interrupt_count = interrupt_count + 1;
     if (interrupt_count > 1) {
         std::signal(signal, SIG_DFL);
@@ -29,6 +33,8 @@ void catch_interrupts() {
 }
 
 bool interrupted() { return interrupt_count > 0; }
+
+int interrupt_signal() { return first_signal; }
 
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), next_(std::chrono::steady_clock::now()) {}
 

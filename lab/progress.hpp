@@ -31,5 +31,7 @@ class Progress {
 /// Ctrl-C and SIGTERM ask the calculation to end at its next sample; a second one ends the program at once.
 void catch_interrupts();
 bool interrupted();
+/// Number of the signal that asked for the end; SIGINT before any has.
+int interrupt_signal();
 
 } // namespace proveta

@@ -4,8 +4,12 @@
 #include <omp.h>
 
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 
+#include "core/hash.hpp"
 #include "core/parallel/instruction_set.hpp"
+
 namespace proveta {
 
 std::string version() { return PROVETA_VERSION; }
@@ -26,11 +30,48 @@ std::string now_utc() {
 
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
-input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& status,
-                     const std::string& started, const std::string& folder) {
+std::string hash_of_file(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in || !std::filesystem::is_regular_file(file)) {
+        return "";
+    }
+    Hash hash;
+    char buffer[65536];
+    while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
+        hash.mix(buffer, static_cast<std::size_t>(in.gcount()));
+    }
+    return hex(hash.value());
+}
+
+namespace {
+
+// Files that a test was read from, with their hashes.
+input::Json input_files(const Deck& deck) {
+    std::vector<std::string> names{deck.source, deck.material.card, deck.specimen.file};
+    for (const auto& region : deck.regions) {
+        names.push_back(region.material.card);
+    }
+    input::Json files = input::Json::object();
+    for (const auto& name : names) {
+        const auto base = name == deck.source ? std::filesystem::current_path() : std::filesystem::path(deck.folder);
+        const std::string file = name.empty() ? "" : (base / name).lexically_normal().string();
+        if (const std::string hash = file.empty() ? "" : hash_of_file(file); !hash.empty()) {
+            files[file] = hash;
+        }
+    }
+    return files;
+}
+
+std::string text_in(const input::Json& json, const char* key) {
+    return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
+
+} // namespace
+
+input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& folder) {
     input::Json j;
     j["proveta_manifest"] = 1;
-    j["status"] = status;
+    j["status"] = "running";
     j["command"] = command;
     j["repeat_with"] = fmt::format("proveta run {}/manifest.json --out NEW_FOLDER", folder);
     j["version"] = version();
@@ -38,8 +79,10 @@ input::Json manifest(const Deck& deck, const Bench& bench, const std::string& co
     j["build"] = PROVETA_BUILD;
     j["vector_kernel"] = instruction_set_name();
     j["threads"] = omp_get_max_threads();
-    j["started"] = started;
+    j["started"] = now_utc();
+    j["resumed"] = input::Json::array();
     j["deck_file"] = deck.source;
+    j["files"] = input_files(deck);
     j["card"] = deck.material.card;
     j["seed"] = deck.specimen.seed;
     j["specimen_hash"] = hex(bench.specimen_hash);
@@ -47,6 +90,42 @@ input::Json manifest(const Deck& deck, const Bench& bench, const std::string& co
     j["time_step_s"] = bench.model->dt();
     j["deck"] = resolved(deck);
     return j;
+}
+
+input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh, bool runs_on) {
+    std::ifstream in(file);
+    input::Json j = in ? input::Json::parse(in, nullptr, false) : input::Json();
+    if (!j.is_object()) {
+        return fresh;
+    }
+    if (runs_on) {
+        j["threads"] = omp_get_max_threads();
+        j["resumed"].push_back(now_utc());
+    }
+    return j;
+}
+
+std::vector<std::string> changes_since(const input::Json& manifest) {
+    std::vector<std::string> out;
+    const auto compare = [&](const char* key, const std::string& now, const char* consequence) {
+        if (const std::string then = text_in(manifest, key); !then.empty() && then != now) {
+            out.push_back(fmt::format("{} was \"{}\" and is \"{}\" now: {}", key, then, now, consequence));
+        }
+    };
+    const char* rounding = "results may differ in their last digits from those of a run that was never stopped";
+    compare("version", version(), rounding);
+    compare("compiler", PROVETA_COMPILER, rounding);
+    compare("build", PROVETA_BUILD, rounding);
+    if (manifest.contains("files") && manifest["files"].is_object()) {
+        for (const auto& [file, hash] : manifest["files"].items()) {
+            const std::string now = hash_of_file(file);
+            if (hash.is_string() && now != hash.get<std::string>()) {
+                out.push_back(fmt::format("{} {} since the test began; it goes on with what it began with", file,
+                                          now.empty() ? "has gone" : "has changed"));
+            }
+        }
+    }
+    return out;
 }
 
 } // namespace proveta

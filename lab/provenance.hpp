@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/input/json.hpp"
 #include "lab/bench.hpp"
@@ -20,9 +21,19 @@ std::string now_utc();
 /// A 64-bit hash as 16 hexadecimal digits.
 std::string hex(std::uint64_t hash);
 
-/// manifest.json: the resolved deck, versions, threads, seed, hashes and the command that runs it again. status: running, complete,
-/// interrupted or failed.
-input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& status,
-                     const std::string& started, const std::string& folder);
+/// Hash of a file's bytes as 16 hexadecimal digits; empty when it cannot be read.
+std::string hash_of_file(const std::string& file);
+
+/// manifest.json of a test that starts now: the resolved deck, versions, threads, seed, the files it was read from, hashes, and the command
+/// that runs it again. Its "status" is to be running, complete, interrupted or failed.
+input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& folder);
+
+/// The manifest that a test begun earlier left in its folder; `fresh` when it left none. runs_on: it takes more steps, and the time of that
+/// is noted.
+input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh, bool runs_on);
+
+/// What is different now from when a manifest was written, a sentence each: the program, and files that the test was read from. The test
+/// goes on with what the manifest says all the same.
+std::vector<std::string> changes_since(const input::Json& manifest);
 
 } // namespace proveta

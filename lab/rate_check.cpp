@@ -8,18 +8,9 @@
 
 namespace proveta {
 
-std::optional<RateCheck> check_rate(const Deck& deck, const Specimen& specimen, const report::Table& curve,
-                                    const std::function<bool()>& interrupted,
-                                    const std::function<void(const TestData&, double done)>& progress) {
+std::optional<RateCheck> check_rate(const Deck& deck, const Specimen& specimen, const report::Table& curve, TestHooks hooks) {
     Bench bench = set_up(deck, specimen);
-    TestHooks hooks;
-    hooks.progress = [&](const TestData& data, double done) {
-        if (progress) {
-            progress(data, done);
-        }
-    };
     hooks.fields = [] {};
-    hooks.interrupted = interrupted;
     const TestData slow = run_protocol(deck, bench, hooks, {.pace = 0.5, .until_drop = 0.15});
     const auto stress = loading_of(slow.curve, bench.press.sense).deviator;
     const auto full = loading_of(curve, bench.press.sense).deviator;

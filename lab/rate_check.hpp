@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 #include "reports/record/record.hpp"
@@ -11,7 +10,7 @@
 namespace proveta {
 
 struct Deck;
-struct TestData;
+struct TestHooks;
 
 /// What a test at half the rate said.
 struct RateCheck {
@@ -21,9 +20,7 @@ struct RateCheck {
 };
 
 /// Runs the deck's test on the specimen again with all speeds halved until 15 % of the peak stress have been lost. curve: of the test
-/// itself. Empty when it was interrupted or failed. progress may be empty.
-std::optional<RateCheck> check_rate(const Deck& deck, const Specimen& specimen, const report::Table& curve,
-                                    const std::function<bool()>& interrupted,
-                                    const std::function<void(const TestData&, double done)>& progress);
+/// itself; hooks: of the second one, whose fields are not written. Empty when it was interrupted or failed.
+std::optional<RateCheck> check_rate(const Deck& deck, const Specimen& specimen, const report::Table& curve, TestHooks hooks);
 
 } // namespace proveta

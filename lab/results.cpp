@@ -8,9 +8,13 @@
 
 #include "core/input/units.hpp"
 #include "core/parallel/instruction_set.hpp"
+#include "lab/citation.hpp"
+#include "lab/crack_report.hpp"
 #include "lab/derived.hpp"
+#include "lab/mohr_report.hpp"
 #include "lab/provenance.hpp"
 #include "lab/quasi_static.hpp"
+#include "lab/specimen_report.hpp"
 
 namespace proveta {
 
@@ -182,6 +186,22 @@ report::TextTable provenance_table(const Deck& deck, const Bench& bench) {
              {"Written", now_utc()}}};
 }
 
+// What stands large at the head: of these, in this order, those that the test has.
+const std::vector<std::string> main_results{"friction_angle", "strength",        "splitting_strength", "tensile_strength",
+                                            "crush_pressure", "yield_stress",    "young_modulus",      "constrained_modulus",
+                                            "bulk_modulus",   "initial_modulus", "poisson_ratio",      "lateral_give",
+                                            "strain_at_peak", "fracture_energy", "dilation_angle",     "confining_pressure",
+                                            "strain_ratio"};
+
+// Parts of the page below headings of their own.
+void add_sections(report::Record& r, const Deck& deck, const Bench& bench, const TestData& data) {
+    if (bench.model->bonds.size() > 0) {
+        r.sections.push_back(crack_section(bench, data.events));
+    }
+    r.sections.push_back(specimen_section(bench));
+    r.sections.back().tables.push_back(specimen_table(deck, bench));
+}
+
 } // namespace
 
 report::Table event_table(const std::vector<FailureEvent>& events) {
@@ -236,6 +256,10 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
             r.results.insert(r.results.end(), more.begin(), more.end());
         }
         r.plots = plots(*deck.protocol, bench.press.sense, bench.model->bonds.size() > 0, data);
+        if (const auto circles = circles_of_test(data.curve, bench.model->bonds.size() == 0)) {
+            r.plots.push_back(*circles);
+        }
+        r.key_figures = report::key_figures(r.results, main_results);
         if (!acoustic.empty()) {
             r.plots.push_back(acoustic_activity_plot(acoustic));
             r.plots.push_back(magnitude_plot(acoustic));
@@ -295,7 +319,9 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
         r.warnings.push_back("The material card is provisional: " + deck.material.values.about + ".");
     }
     r.pictures = data.pictures;
-    r.tables = {ledger_table(data.energy), specimen_table(deck, bench), standards_table(info), provenance_table(deck, bench)};
+    add_sections(r, deck, bench, data);
+    r.tables = {ledger_table(data.energy), standards_table(info), provenance_table(deck, bench)};
+    r.citation = citation(info.title, deck.title, resolved(deck));
     return r;
 }
 
@@ -311,7 +337,7 @@ input::Json verdicts_of(const std::vector<report::Badge>& badges) {
     return out;
 }
 
-input::Json summary(const report::Record& r, const Bench& bench, const TestData& data, double seconds) {
+input::Json summary(const report::Record& r, const Bench& bench, const TestData& data) {
     input::Json j;
     j["title"] = r.title;
     j["status"] = r.status;
@@ -372,8 +398,6 @@ input::Json summary(const report::Record& r, const Bench& bench, const TestData&
         j["rate_check"] = "not done";
     }
     j["final_state_hash"] = hex(bench.model->state_hash());
-    j["wall_time_of_loading_s"] = seconds;
-    j["threads"] = omp_get_max_threads();
     return j;
 }
 

@@ -34,8 +34,8 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
 /// The badges as they stand in summary.json.
 input::Json verdicts_of(const std::vector<report::Badge>& badges);
 
-/// summary.json.
-input::Json summary(const report::Record& record, const Bench& bench, const TestData& data, double seconds);
+/// summary.json: what the test found and nothing of how long it took, so that two runs of one deck have the same to the byte.
+input::Json summary(const report::Record& record, const Bench& bench, const TestData& data);
 
 /// What mass scaling did, in a sentence.
 std::string text_of(const MassScaling& scaling);

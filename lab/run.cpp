@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 
+#include "core/files/whole_file.hpp"
+#include "core/hash.hpp"
 #include "lab/fields.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
@@ -15,6 +19,7 @@
 #include "lab/test_run.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
+#include "reports/paraview.hpp"
 #include "specimens/checkpoint.hpp"
 
 namespace proveta {
@@ -25,33 +30,56 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+void write_picture(const OutputFolder& out, const std::string& name, const std::string& png) {
+    std::filesystem::create_directories(out.path() / "pictures");
+    report::write_file(out.file("pictures/" + name), png);
+}
+
 // Writes field files and keeps the series.
 class FieldSeries {
   public:
     explicit FieldSeries(const OutputFolder& out) : out_(out) {}
 
-    void write(const Bench& bench) {
+    // stills: height of a picture in pixels; 0: none.
+    void write(const Bench& bench, std::int64_t stills) {
         std::filesystem::create_directories(out_.path() / "fields");
-        const auto one = [&](const char* part, const report::Geometry& geometry) {
-            const std::string file = fmt::format("fields/{}_{:04}.vtp", part, count_);
-            const std::lock_guard lock(file_libraries());
-            report::write_vtp(out_.file(file), geometry);
-            entries_.push_back({bench.model->time(), part, file});
-        };
-        one("spheres", sphere_fields(bench));
-        one("bonds", bond_fields(bench));
-        one("platens", platen_fields(bench));
+        std::vector<std::string> parts{"spheres", "bonds", "platens"};
+        std::vector<report::Geometry> geometry{sphere_fields(bench), bond_fields(bench), platen_fields(bench)};
         if (!bench.model->walls.bodies.empty()) {
-            one("membrane", body_fields(*bench.model));
+            parts.emplace_back("membrane");
+            geometry.push_back(body_fields(*bench.model));
         }
-        ++count_;
-        report::write_file(out_.file("series.pvd"), report::to_pvd(entries_));
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            const std::lock_guard lock(file_libraries());
+            report::write_vtp(out_.file(name(parts[p], times_.size())), geometry[p]);
+        }
+        if (stills > 0) {
+            write_picture(out_, fmt::format("still_{:04}.png", times_.size()),
+                          still(bench, snapshot(*bench.model, "", ""), static_cast<int>(stills)));
+        }
+        times_.push_back(bench.model->time());
+        std::vector<report::SeriesEntry> entries;
+        for (std::size_t k = 0; k < times_.size(); ++k) {
+            for (const auto& part : parts) {
+                entries.push_back({times_[k], part, name(part, k)});
+            }
+        }
+        report::write_file(out_.file("series.pvd"), report::to_pvd(entries));
+        for (const auto& part : parts) { // each part alone too, as scripts want it
+            std::vector<report::SeriesEntry> alone;
+            std::copy_if(entries.begin(), entries.end(), std::back_inserter(alone), [&](const auto& entry) { return entry.part == part; });
+            report::write_file(out_.file(part + ".pvd"), report::to_pvd(alone));
+        }
+        report::write_file(out_.file("views.py"), report::paraview_script());
     }
 
+    void visit_state(StateVisitor& visit) { visit("field_times", times_); }
+
   private:
+    static std::string name(const std::string& part, std::size_t k) { return fmt::format("fields/{}_{:04}.vtp", part, k); }
+
     const OutputFolder& out_;
-    int count_ = 0;
-    std::vector<report::SeriesEntry> entries_;
+    std::vector<double> times_; // of the files written so far, s
 };
 
 std::string progress_line(const Bench& bench, const TestData& data, double done, double seconds) {
@@ -62,9 +90,75 @@ std::string progress_line(const Bench& bench, const TestData& data, double done,
                        rate, 100.0 * done, Progress::duration(seconds * (1.0 / std::max(done, 1e-9) - 1.0)));
 }
 
-void save(const Deck& deck, const Bench& bench, const OutputFolder& out) {
-    const std::lock_guard lock(file_libraries());
-    save_checkpoint(*bench.model, resolved(deck).dump(), out.file("checkpoint.h5"));
+// A test's checkpoints in its folder, and what it keeps in them besides the state of the test itself.
+class Keeper {
+  public:
+    /// name: of the file; extra: what else is kept, and restored. Nothing else may have this name in the folder.
+    Keeper(const OutputFolder& out, const char* name, std::string owner, double every, VisitState extra)
+        : file_(out.file(name)), owner_(std::move(owner)), every_(every), extra_(std::move(extra)) {}
+
+    [[nodiscard]] bool there() const { return std::filesystem::exists(file_) || std::filesystem::exists(earlier_checkpoint(file_)); }
+
+    /// Has the hooks' test kept here, every so many seconds and where it must be, and restored from here if `go_on`.
+    void attach(TestHooks& hooks, bool go_on) {
+        hooks.keep = [this](const VisitState& state, bool must) {
+            if (must || (every_ > 0.0 && since(saved_) > every_)) {
+                save(state);
+            }
+        };
+        if (go_on && there()) {
+            hooks.restore = [this](const VisitState& state) { restore(state); };
+        }
+    }
+
+    void save(const VisitState& state) {
+        const std::lock_guard lock(file_libraries());
+        save_checkpoint(file_, owner_, all_of(state));
+        saved_ = Clock::now();
+    }
+
+  private:
+    [[nodiscard]] VisitState all_of(const VisitState& state) const {
+        return [this, &state](StateVisitor& visit) {
+            extra_(visit);
+            state(visit);
+        };
+    }
+
+    // The last checkpoint, or the one before when that is damaged.
+    void restore(const VisitState& state) {
+        const std::lock_guard lock(file_libraries());
+        std::vector<input::Problem> problems;
+        for (const auto& file : {file_, earlier_checkpoint(file_)}) {
+            if (!std::filesystem::exists(file)) {
+                continue;
+            }
+            try {
+                load_checkpoint(file, owner_, all_of(state));
+                return;
+            } catch (const CheckpointError& e) {
+                const std::string what = e.what();
+                problems.push_back({file, "", what.starts_with(file + ": ") ? what.substr(file.size() + 2) : what,
+                                    "a whole checkpoint of this test", "run the deck anew: proveta run DECK --out NEW_FOLDER"});
+                spdlog::warn("{}; looking for the one before it", what);
+            }
+        }
+        throw input::InputError(problems);
+    }
+
+    std::string file_;
+    std::string owner_;
+    double every_;
+    VisitState extra_;
+    Clock::time_point saved_ = Clock::now();
+};
+
+// Which test a checkpoint is of: deck and specimen, to the bit.
+std::string owner_of(const Deck& deck, const Bench& bench) {
+    Hash hash;
+    const std::string text = resolved(deck).dump();
+    hash.mix(text.data(), text.size());
+    return hex(hash.value()) + " " + hex(bench.specimen_hash);
 }
 
 void log_set_up(const Bench& bench, double seconds, const RunWatch& watch) {
@@ -93,39 +187,66 @@ std::mutex& file_libraries() {
     return mutex;
 }
 
-Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch) {
-    const std::string started = now_utc();
+Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch,
+                   Passage passage) {
     const auto before_set_up = Clock::now();
     Bench bench = set_up(deck, std::move(specimen));
     log_set_up(bench, since(before_set_up), watch);
 
-    out.begin();
-    const std::string folder = out.path().string();
-    report::write_json(out.file("manifest.json"), manifest(deck, bench, command, "running", started, folder));
+    input::Json sheet = manifest(deck, bench, command, out.path().string());
+    const bool go_on = passage != Passage::begin;
+    if (go_on) {
+        out.go_on();
+        sheet = manifest_to_go_on_with(out.file("manifest.json"), sheet, passage == Passage::go_on);
+    } else {
+        out.begin();
+    }
+    const auto write_manifest = [&](const char* status) {
+        sheet["status"] = status;
+        report::write_json(out.file("manifest.json"), sheet);
+    };
+    write_manifest("running");
+
     FieldSeries series(out);
+    double before = 0.0; // seconds of loading in earlier processes
     const auto loading = Clock::now();
-    auto saved = Clock::now();
+    Keeper keeper(out, "checkpoint.h5", owner_of(deck, bench), deck.output.checkpoint_every, [&](StateVisitor& visit) {
+        double seconds = before + since(loading);
+        visit("seconds_of_loading", seconds);
+        before = seconds - since(loading);
+        series.visit_state(visit);
+    });
     TestHooks hooks;
     hooks.progress = [&](const TestData& data, double done) {
         if (!data.curve.rows.empty()) {
-            watch.progress("loading", progress_line(bench, data, done, since(loading)), done);
-        }
-        if (deck.output.checkpoint_every > 0.0 && since(saved) > deck.output.checkpoint_every) {
-            save(deck, bench, out);
-            saved = Clock::now();
+            watch.progress("loading", progress_line(bench, data, done, before + since(loading)), done);
         }
     };
-    hooks.fields = [&] { series.write(bench); };
-    hooks.interrupted = interrupted;
-    TestData data = run_protocol(deck, bench, hooks);
-    const double seconds = since(loading);
-    if (deck.protocol->checks_rate() && data.failure.empty() && !data.interrupted) {
-        data.rate_check = check_rate(deck, bench.specimen, data.curve, interrupted, [&](const TestData& again, double done) {
-            if (!again.curve.rows.empty()) {
-                watch.progress("half-rate check", progress_line(bench, again, done, since(loading)), done);
-            }
-        });
+    hooks.fields = [&] { series.write(bench, deck.output.pictures); };
+    // Who only reports stops where the checkpoint was made.
+    hooks.interrupted = passage == Passage::report ? [] { return true; } : +[] { return interrupted(); };
+    keeper.attach(hooks, go_on);
+    if (passage == Passage::report && !hooks.restore) {
+        throw input::InputError({{out.path().string(), "", "no checkpoint", "a folder with one, from which a report can be made", ""}});
     }
+    if (passage == Passage::go_on) {
+        watch.log(hooks.restore ? "going on from the last checkpoint" : "no checkpoint yet: the test begins anew");
+    }
+    TestData data = run_protocol(deck, bench, hooks);
+    if (deck.protocol->checks_rate() && data.failure.empty() && !data.interrupted) {
+        Keeper of_check(out, "rate_check.h5", owner_of(deck, bench), deck.output.checkpoint_every, [](StateVisitor&) {});
+        TestHooks again;
+        again.progress = [&](const TestData& slow, double done) {
+            if (!slow.curve.rows.empty()) {
+                watch.progress("half-rate check", progress_line(bench, slow, done, before + since(loading)), done);
+            }
+        };
+        again.interrupted = hooks.interrupted;
+        of_check.attach(again, go_on);
+        data.rate_check = check_rate(deck, bench.specimen, data.curve, again);
+        data.interrupted = !data.rate_check && hooks.interrupted();
+    }
+    sheet["wall_time_of_loading_s"] = before + since(loading);
 
     const RunStatus status = !data.failure.empty() ? RunStatus::failed : data.interrupted ? RunStatus::interrupted : RunStatus::complete;
     report::write_file(out.file("curve.csv"), report::to_csv(data.curve));
@@ -134,13 +255,21 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     const AcousticRule rule = acoustic_rule(bench);
     const auto acoustic = acoustic_events(data.events, rule);
     report::write_file(out.file("acoustic.csv"), report::to_csv(acoustic_table(acoustic, rule)));
-    if (status != RunStatus::failed) { // a failed state is not worth going on from
-        save(deck, bench, out);
-    }
     report::Record record = make_record(deck, bench, data, acoustic, name(status));
-    report::write_json(out.file("manifest.json"), manifest(deck, bench, command, name(status), started, folder));
+    if (deck.output.pictures > 0) {
+        for (const auto& portrait : portraits(bench, data.moments, static_cast<int>(deck.output.pictures))) {
+            write_picture(out, portrait.file, portrait.portrait.png);
+        }
+        constexpr int on_page = 380; // pixels
+        for (auto& [file, portrait] : portraits(bench, data.moments, on_page)) {
+            if (file != "past_peak_displacement.png" && file != "peak_cracks.png") { // a page that can still be sent by mail
+                record.portraits.push_back(std::move(portrait));
+            }
+        }
+    }
     report::write_file(out.file("report.html"), report::to_html(record));
-    report::write_json(out.file("summary.json"), summary(record, bench, data, seconds));
+    report::write_json(out.file("summary.json"), summary(record, bench, data));
+    write_manifest(name(status)); // the last: who finds it complete finds all of it
     return {status, std::move(record), main_curve(*deck.protocol, data)};
 }
 
@@ -161,11 +290,19 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
     const auto show = [&](const std::string& phase, const std::string& figures, double) {
         progress.show(phase == "loading" ? figures : phase + ": " + figures);
     };
-    const Finished finished = carry_out(deck, std::move(specimen), out, options.command, {show, log});
-    progress.end_line();
-    fmt::print("{}", as_text(finished.record));
-    fmt::print("results in {}\n", out.path().string());
-    return finished.status;
+    try {
+        const Finished finished = carry_out(deck, std::move(specimen), out, options.command, {show, log}, options.passage);
+        progress.end_line();
+        fmt::print("{}", as_text(finished.record));
+        fmt::print("results in {}\n", out.path().string());
+        if (finished.status == RunStatus::interrupted) {
+            spdlog::warn("interrupted; to go on: proveta resume {}", out.path().string());
+        }
+        return finished.status;
+    } catch (const FileError& e) {
+        progress.end_line();
+        throw FileError(fmt::format("{}; once that is mended, go on with: proveta resume {}", e.what(), out.path().string()));
+    }
 }
 
 } // namespace proveta

@@ -11,10 +11,18 @@
 
 namespace proveta {
 
+/// What to do in a folder.
+enum class Passage {
+    begin, ///< run from the start, replacing an earlier result
+    go_on, ///< run on from the folder's last checkpoint
+    report ///< write all files anew from the last checkpoint, and take no step
+};
+
 struct RunOptions {
     std::string out;     ///< result folder
     std::string command; ///< as typed, for the manifest
     bool quiet = false;
+    Passage passage = Passage::begin;
 };
 
 /// How a run ended.
@@ -38,15 +46,17 @@ struct Finished {
 };
 
 /// Tests a specimen and writes the folder, which is begun once the specimen is in the press. Several threads may do so at once, each with
-/// a folder of its own; the test is worked on by as many threads as OpenMP would give to the calling one. Throws InputError, before
-/// anything is written, when deck and specimen do not fit together.
-Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch);
+/// a folder of its own; the test is worked on by as many threads as OpenMP would give to the calling one. Files of a run that goes on from
+/// a checkpoint are the same to the byte as those of one that was never stopped. Throws InputError, before
+/// anything is written, when deck and specimen do not fit together or the checkpoints are of another test, and FileError.
+Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch,
+                   Passage passage = Passage::begin);
 
 /// Held while HDF5 or VTK are at work: as usually packaged they are not made for several threads at once.
 std::mutex& file_libraries();
 
 /// Makes or loads the specimen, tests it, writes the folder, prints the results on stdout. Throws InputError before anything is
-/// written when the input is wrong.
+/// written when the input is wrong, and FileError when the folder cannot be written any more.
 RunStatus run_test(const Deck& deck, const RunOptions& options);
 
 } // namespace proveta

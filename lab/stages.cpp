@@ -144,9 +144,9 @@ namespace {
 
 // Where a loading stands, known to all its stages.
 struct Path {
-    std::optional<double> origin; // strain at which the loading began
-    double turned_strain = 0.0;   // at the last turn back
-    double turned_stress = 0.0;   // deviatoric stress there, Pa
+    double origin = std::numeric_limits<double>::quiet_NaN(); // strain at which the loading began, once it has
+    double turned_strain = 0.0;                               // at the last turn back
+    double turned_stress = 0.0;                               // deviatoric stress there, Pa
 };
 
 std::shared_ptr<Control> closing_control(const AxialLoading& l, const BenchView& bench, const AxialTarget& t, double pace) {
@@ -164,10 +164,10 @@ std::shared_ptr<Control> closing_control(const AxialLoading& l, const BenchView&
 std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, const AxialTarget& target, double pace) {
     const auto path = std::make_shared<Path>();
     const auto strain = [path](const BenchView& b) {
-        if (!path->origin) {
+        if (std::isnan(path->origin)) {
             path->origin = b.strain();
         }
-        return b.strain() - *path->origin;
+        return b.strain() - path->origin;
     };
     const auto deviator = [p = target.pressure](const BenchView& b) { return b.stress() - p; };
     const auto control = closing_control(l, bench, target, pace);
@@ -205,6 +205,11 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
     } else {
         stages.push_back({"loading", Stage::Kind::loading, target.share, control, to_end});
     }
+    stages.back().memory = [path](const std::string& prefix, StateVisitor& visit) {
+        visit(prefix + "origin", path->origin);
+        visit(prefix + "turned_strain", path->turned_strain);
+        visit(prefix + "turned_stress", path->turned_stress);
+    };
     return stages;
 }
 

@@ -8,37 +8,56 @@
 #include "lab/derived.hpp"
 #include "lab/fields.hpp"
 #include "lab/stages.hpp"
+#include "lab/test_state.hpp"
 
 namespace proveta {
 
 namespace {
 
-// Keeps pictures of the specimen at the highest stress so far and 20 % past it.
+// Keeps what the specimen looked like at the highest stress so far and 20 % past it.
 class PeakWatch {
   public:
     void look(const Bench& bench, double stress, double strain) {
         if (stress > highest_) {
             highest_ = stress;
-            at_peak_ = slice(bench, fmt::format("At the peak, strain {:.3f} %", 100.0 * strain));
+            keep(bench, "peak", fmt::format("At the peak, strain {:.3f} %", 100.0 * strain), at_peak_, peak_);
             past_ = false;
         } else if (!past_ && stress < 0.8 * highest_ && bench.model->broken() > 0) {
             past_ = true;
-            at_drop_ = slice(bench, fmt::format("20 % past the peak, strain {:.3f} %", 100.0 * strain));
+            keep(bench, "past_peak", fmt::format("20 % past the peak, strain {:.3f} %", 100.0 * strain), at_drop_, drop_);
         }
     }
 
-    void add_to(std::vector<report::Picture>& pictures) const {
+    void add_to(TestData& data) const {
         if (past_) {
-            pictures.push_back(at_peak_);
-            pictures.push_back(at_drop_);
+            data.pictures.insert(data.pictures.end(), {at_peak_, at_drop_});
+            data.moments.insert(data.moments.end(), {peak_, drop_});
         }
+    }
+
+    void visit_state(StateVisitor& visit) {
+        std::int64_t past = past_ ? 1 : 0;
+        visit("watch_highest", highest_);
+        visit("watch_past", past);
+        past_ = past != 0;
+        visit_picture("watch_at_peak_", at_peak_, visit);
+        visit_picture("watch_at_drop_", at_drop_, visit);
+        visit_snapshot("watch_peak_", peak_, visit);
+        visit_snapshot("watch_drop_", drop_, visit);
     }
 
   private:
+    static void keep(const Bench& bench, const char* name, const std::string& title, report::Picture& picture, Snapshot& moment) {
+        picture = slice(bench, title);
+        moment = snapshot(*bench.model, name, title);
+    }
+
     double highest_ = 0.0;
     bool past_ = false;
     report::Picture at_peak_;
     report::Picture at_drop_;
+    Snapshot peak_;
+    Snapshot drop_;
 };
 
 void record_failures(const Model& model, double strain, Instruments& instruments, std::vector<FailureEvent>& events) {
@@ -68,30 +87,42 @@ class Run {
 
     TestData go() {
         data_.pictures.push_back(slice(bench_, "Before the test"));
-        const auto stages = deck_.protocol->stages(view_, variant_.pace);
+        data_.moments.push_back(snapshot(model_, "intact", "Before the test"));
+        stages_ = deck_.protocol->stages(view_, variant_.pace); // as the specimen is before the test
+        bool midst = false;
+        if (hooks_.restore) {
+            hooks_.restore([this](StateVisitor& visit) { visit_state(visit); });
+            model_.restored();
+            midst = true;
+            for (std::size_t k = 0; k < stages_.size() && static_cast<std::int64_t>(k) <= stage_; ++k) {
+                data_.stages.push_back(stages_[k].name);
+                before_ += static_cast<std::int64_t>(k) < stage_ ? stages_[k].share : 0.0;
+            }
+        }
         try {
-            for (const auto& stage : stages) {
-                data_.stages.push_back(stage.name);
-                pass(stage);
-                if (data_.interrupted || !data_.stopped_by.empty()) {
-                    break;
-                }
-                before_ += stage.share;
+            while (stage_ < static_cast<std::int64_t>(stages_.size()) && !data_.interrupted && data_.stopped_by.empty()) {
+                pass(stages_[static_cast<std::size_t>(stage_)], midst);
+                midst = false;
             }
             if (data_.interrupted) {
                 data_.stopped_by = "interrupted by the user";
             } else if (data_.stopped_by.empty()) {
                 data_.stopped_by = "the loading is complete";
             }
-            if (deck_.output.fields > 0) {
+            if (deck_.output.fields > 0 && over_ == 0) {
                 hooks_.fields();
             }
         } catch (const NumericalFailure& e) {
             data_.failure = e.what();
             data_.stopped_by = "the calculation failed: " + data_.failure;
         }
-        watch_.add_to(data_.pictures);
+        if (!data_.interrupted && data_.failure.empty()) {
+            over_ = 1;
+            keep(true);
+        }
+        watch_.add_to(data_);
         data_.pictures.push_back(slice(bench_, "At the end"));
+        data_.moments.push_back(snapshot(model_, "end", "At the end"));
         if (!model_.walls.bodies.empty()) {
             data_.pictures.push_back(membrane_view(bench_, "The membrane at the end"));
         }
@@ -99,9 +130,24 @@ class Run {
     }
 
   private:
-    void pass(const Stage& stage) {
-        stage.control->begin(view_, drive_);
+    // midst: the stage was begun before the state was kept that the test goes on from.
+    void pass(const Stage& stage, bool midst) {
+        if (!midst) {
+            stage.control->begin(view_, drive_);
+            data_.stages.push_back(stage.name);
+            if (stage_ > 0) {
+                keep(true);
+            }
+        }
         for (bool over = false; !over;) {
+            if (looked_) { // between two steps, where the state is whole
+                looked_ = false;
+                data_.interrupted = hooks_.interrupted();
+                keep(data_.interrupted);
+                if (data_.interrupted) {
+                    return;
+                }
+            }
             const double done = stage.done(view_);
             const double whole = before_ + stage.share * std::clamp(done, 0.0, 1.0);
             over = done >= 1.0;
@@ -109,12 +155,46 @@ class Run {
             step(stage, due);
             if (due) {
                 sample(stage, whole);
-            } else if (model_.steps() % 256 == 0) {
+                looked_ = true;
+            } else if (model_.steps() % steps_a_look == 0) {
                 hooks_.progress(data_, whole);
-                data_.interrupted = hooks_.interrupted();
+                looked_ = true;
             }
-            over = over || data_.interrupted || !data_.stopped_by.empty();
+            over = over || !data_.stopped_by.empty();
         }
+        if (data_.stopped_by.empty()) {
+            before_ += stage.share;
+            ++stage_;
+        }
+    }
+
+    void keep(bool must) {
+        if (hooks_.keep) {
+            hooks_.keep([this](StateVisitor& visit) { visit_state(visit); }, must);
+        }
+    }
+
+    // All that the steps to come depend on besides deck and specimen.
+    void visit_state(StateVisitor& visit) {
+        visit("test_stage", stage_);
+        visit("test_over", over_);
+        visit("test_stopped_by", data_.stopped_by);
+        visit("test_samples", samples_);
+        visit("test_fields", fields_);
+        visit("test_closing", drive_.closing);
+        visit("test_pressure", drive_.pressure);
+        visit_rows("curve_", data_.curve, visit);
+        visit_rows("energy_", data_.energy, visit);
+        visit_events("", data_.events, visit);
+        instruments_.visit_state("instruments_", visit);
+        watch_.visit_state(visit);
+        for (std::size_t k = 0; k < stages_.size(); ++k) {
+            stages_[k].control->visit_state("control_" + std::to_string(k) + "_", visit);
+            if (stages_[k].memory) {
+                stages_[k].memory("stage_" + std::to_string(k) + "_", visit);
+            }
+        }
+        model_.visit_state(visit);
     }
 
     void step(const Stage& stage, bool due) {
@@ -131,7 +211,8 @@ class Run {
                 pressure.value = drive_.pressure;
             }
         }
-        model_.step(speeds_, measured);
+        // What is about to be looked at, and perhaps kept, is checked first: a diverged state is not worth keeping.
+        model_.step(speeds_, measured || (model_.steps() + 1) % steps_a_look == 0);
         stage.control->stepped(view_, measured);
         record_failures(model_, bench_.press.sense * view_.strain(), instruments_, data_.events);
     }
@@ -148,7 +229,6 @@ class Run {
             fields_ = static_cast<std::int64_t>(std::floor(whole * static_cast<double>(deck_.output.fields))) + 1;
         }
         hooks_.progress(data_, whole);
-        data_.interrupted = hooks_.interrupted();
         if (stage.kind != Stage::Kind::loading) {
             return;
         }
@@ -170,6 +250,11 @@ class Run {
     PeakWatch watch_;
     Drive drive_;
     std::vector<double> speeds_;
+    static constexpr std::int64_t steps_a_look = 256; // between looks at the clock and at the user's wishes
+    std::vector<Stage> stages_;
+    std::int64_t stage_ = 0; // that is passed through
+    std::int64_t over_ = 0;  // 1: the test is over and everything written
+    bool looked_ = true;
     double before_ = 0.0; // share of the test in earlier stages
     std::int64_t samples_ = 0;
     std::int64_t fields_ = 0;

@@ -9,7 +9,9 @@
 #include "lab/failure_event.hpp"
 #include "lab/instruments.hpp"
 #include "lab/rate_check.hpp"
+#include "lab/snapshot.hpp"
 #include "reports/record/record.hpp"
+#include "specimens/checkpoint.hpp"
 
 namespace proveta {
 
@@ -19,6 +21,7 @@ struct TestData {
     report::Table energy;
     std::vector<FailureEvent> events;
     std::vector<report::Picture> pictures; ///< before, at peak, 20 % past it, at the end
+    std::vector<Snapshot> moments;         ///< the same moments, to be drawn
     std::vector<std::string> stages;       ///< names of those that were begun
     std::string stopped_by;
     std::optional<RateCheck> rate_check; ///< empty: none was made
@@ -36,10 +39,14 @@ struct TestVariant {
 struct TestHooks {
     std::function<void(const TestData&, double done)> progress; ///< at every sample and now and then; done 0 to 1
     std::function<void()> fields;                               ///< the fields are to be written
-    std::function<bool()> interrupted;
+    std::function<bool()> interrupted;                          ///< whether to stop, looked at as often as `progress` is called
+    /// A moment to keep the state at, now and then; `must`: a stage begins, or the test was interrupted. May be empty.
+    std::function<void(const VisitState& state, bool must)> keep = nullptr;
+    /// Restores a state that was kept: the test, its bench newly set up, goes on from there. Empty: it begins.
+    std::function<void(const VisitState& state)> restore = nullptr;
 };
 
-/// Runs the protocol on the bench until it stops.
+/// Runs the protocol on the bench, as it was set up, until it stops. A test that was kept, ended and restored ends the same to the bit.
 TestData run_protocol(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant = {});
 
 } // namespace proveta

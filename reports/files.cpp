@@ -2,27 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
+#include "core/files/whole_file.hpp"
 
 namespace proveta::report {
 
-void write_file(const std::string& file, const std::string& text) {
-    const std::string partial = file + ".partial";
-    std::ofstream out(partial, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-        const std::string why = std::strerror(errno);
-        std::error_code ignored;
-        std::filesystem::remove(partial, ignored);
-        throw std::runtime_error(fmt::format("{} cannot be written: {}", file, why));
-    }
-    std::filesystem::rename(partial, file);
-}
+void write_file(const std::string& file, const std::string& text) { write_whole(file, text.data(), text.size()); }
 
 std::string to_csv(const Table& table) {
     std::string out;

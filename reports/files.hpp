@@ -8,7 +8,7 @@
 
 namespace proveta::report {
 
-/// Writes text to a file by way of a temporary beside it, so that a reader never sees half of it. Throws std::runtime_error.
+/// Writes text to a file, see `write_whole`. Throws FileError.
 void write_file(const std::string& file, const std::string& text);
 
 /// A table as CSV: '#' lines with the notes and the meaning of the columns, a heading row, numbers with 17 significant digits.

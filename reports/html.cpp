@@ -2,109 +2,166 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <algorithm>
 
+#include "reports/figure.hpp"
+#include "reports/page/page.hpp"
 #include "reports/svg.hpp"
+#include "reports/tables.hpp"
 
 namespace proveta::report {
 
 namespace {
 
-constexpr const char* style = R"(
-body{font:15px/1.5 system-ui,sans-serif;color:#1b2530;background:#fff;max-width:1040px;margin:0 auto;padding:1.2rem}
-h1{font-size:1.6rem;margin:.2rem 0}h2{font-size:1.15rem;margin:1.8rem 0 .5rem;border-bottom:2px solid #1f4e79;padding-bottom:.2rem}
-.sub{color:#4a5866;margin:0}
-table{border-collapse:collapse;width:100%;font-size:.92rem}
-th,td{text-align:left;padding:.3rem .6rem;border-bottom:1px solid #dde3e8;vertical-align:top}
-th{background:#f2f5f8}td.num{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
-.badge{border-left:6px solid #1e7b46;background:#eef7f1;padding:.5rem .9rem;margin:.6rem 0}.badge.bad{border-color:#b03a2e;background:#fbeeec}
-.badge b{display:block}.warn{border-left:6px solid #b9770e;background:#fdf4e3;padding:.4rem .9rem;margin:.4rem 0}
-.row{display:flex;flex-wrap:wrap;gap:1rem}.row figure{flex:1 1 200px;max-width:320px;margin:0}
-.scroll{overflow-x:auto}.scroll td:first-child,.scroll th:first-child{position:sticky;left:0;min-width:9rem}.scroll td:first-child{background:#fff}
-.row figure.plot{flex:1 1 440px;max-width:none}.row figure.plot:first-child{flex-basis:100%}
-figcaption{font-size:.85rem;color:#4a5866}
-svg{width:100%;height:auto}code{font-size:.88rem;overflow-wrap:anywhere}
-.status{display:inline-block;padding:.1rem .6rem;border-radius:1rem;background:#1e7b46;color:#fff;font-size:.85rem}.status.bad{background:#b03a2e}
-@media print{body{max-width:none;padding:0}h2{break-after:avoid}figure{break-inside:avoid}}
-@media(max-width:600px){body{padding:.7rem}}
-)";
-
-std::string results_table(const std::vector<Scalar>& results) {
-    std::string out = "<div class=\"scroll\"><table><tr><th>Result</th><th>Value</th><th>Unit</th><th>How it is found</th></tr>\n";
-    for (const auto& result : results) {
-        const Scalar r = readable(result);
-        const std::string value = r.value ? fmt::format("{:.5g}", *r.value) : "not determined";
-        out += fmt::format("<tr><td>{}</td><td class=\"num\">{}</td><td>{}</td><td>{}</td></tr>\n", escape(r.title), value, escape(r.unit),
-                           escape(r.formula));
+// From hexadecimal digits to base 64, which a content security policy wants.
+std::string base64_of_hex(std::string_view hex) {
+    const auto digit = [&](std::size_t k) { return hex[k] <= '9' ? hex[k] - '0' : hex[k] - 'a' + 10; };
+    std::string bytes;
+    for (std::size_t k = 0; k + 1 < hex.size(); k += 2) {
+        bytes += static_cast<char>(16 * digit(k) + digit(k + 1));
     }
-    return out + "</table></div>\n";
+    return base64(bytes);
 }
 
-// True for a text that is a number and nothing else.
-bool numeric(const std::string& text) {
-    char* end = nullptr;
-    std::strtod(text.c_str(), &end);
-    return !text.empty() && end == text.c_str() + text.size();
-}
+// Headings of the page, of which the contents are made.
+class Parts {
+  public:
+    /// Begins a part and returns its heading.
+    std::string begin(const std::string& title) {
+        titles_.push_back(title);
+        return fmt::format("{0}<section aria-labelledby=\"part{1}\">\n<h2 id=\"part{1}\">{2}</h2>\n",
+                           titles_.size() > 1 ? "</section>\n" : "", titles_.size(), escape(title));
+    }
+    [[nodiscard]] std::string end() const { return titles_.empty() ? "" : "</section>\n"; }
 
-std::string text_table(const TextTable& t) {
-    std::string out = fmt::format("<h2>{}</h2>\n<div class=\"scroll\"><table>\n", escape(t.title));
-    for (std::size_t k = 0; k < t.rows.size(); ++k) {
-        out += "<tr>";
-        for (std::size_t c = 0; c < t.rows[k].size(); ++c) {
-            const std::string& cell = t.rows[k][c];
-            const std::string link = c == 0 && k > 0 && k <= t.links.size() ? t.links[k - 1] : "";
-            const std::string shown = link.empty() ? escape(cell) : fmt::format("<a href=\"{}\">{}</a>", escape(link), escape(cell));
-            out += k == 0 ? fmt::format("<th>{}</th>", shown)
-                          : fmt::format("<td{}>{}</td>", c > 0 && numeric(cell) ? " class=\"num\"" : "", shown);
+    [[nodiscard]] std::string contents() const {
+        std::string out = "<nav aria-label=\"Contents\"><ul>";
+        for (std::size_t k = 0; k < titles_.size(); ++k) {
+            out += fmt::format("<li><a href=\"#part{}\">{}</a></li>", k + 1, escape(titles_[k]));
         }
-        out += "</tr>\n";
+        return out + "</ul></nav>\n";
     }
-    return out + "</table></div>\n";
+
+  private:
+    std::vector<std::string> titles_;
+};
+
+template <class Figures> std::string figures(const Figures& list, const char* kind) {
+    std::string out;
+    for (const auto& one : list) {
+        out += figure(one);
+    }
+    return list.empty() ? "" : fmt::format("<div class=\"figures {}\">\n{}</div>\n", kind, out);
+}
+
+std::string head(const Record& r) {
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" "
+        "content=\"default-src "
+        "'none'; style-src 'sha256-{}'; script-src 'sha256-{}'; img-src data:; base-uri 'none'; form-action 'none'\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{}</title>\n<style>{}</style></head>\n<body>\n"
+        "<a class=\"skip\" href=\"#main\">Skip to the results</a>\n",
+        base64_of_hex(page_style_sha256), base64_of_hex(page_script_sha256), escape(r.title), page_style);
+}
+
+// What is wanted first: the answer, and whether to trust it.
+std::string summary(const Record& r) {
+    std::string out =
+        fmt::format("<header>\n<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<p class=\"ending\"><span class=\"status {}\">{}</span> {}</p>\n",
+                    escape(r.title), escape(r.subtitle), r.status == "complete" ? "good" : "bad", escape(r.status), escape(r.stopped_by));
+    if (!r.key_figures.empty()) {
+        out += "<dl class=\"figures-first\">\n";
+        for (const auto& f : r.key_figures) {
+            out += fmt::format("<div><dt>{}</dt><dd><b>{}</b>{}</dd>{}</div>\n", escape(f.label), escape(f.value),
+                               f.unit.empty() ? "" : " <span>" + escape(f.unit) + "</span>",
+                               f.note.empty() ? "" : "<dd class=\"note\">" + escape(f.note) + "</dd>");
+        }
+        out += "</dl>\n";
+    }
+    if (!r.badges.empty()) {
+        out += "<ul class=\"verdicts\">";
+        for (const auto& b : r.badges) {
+            out += fmt::format("<li class=\"{}\"><span aria-hidden=\"true\">{}</span> <b>{}</b> {}</li>", b.good ? "good" : "bad",
+                               b.good ? "\u2713" : "!", escape(b.name), escape(b.verdict));
+        }
+        out += "</ul>\n";
+    }
+    out += "</header>\n";
+    if (!r.warnings.empty()) {
+        out += "<div class=\"warn\" role=\"note\"><p><b>To be read with the results</b></p><ul>";
+        for (const auto& w : r.warnings) {
+            out += fmt::format("<li>{}</li>\n", escape(w));
+        }
+        out += "</ul></div>\n";
+    }
+    return out;
+}
+
+std::string checks(const std::vector<Badge>& badges) {
+    std::string out;
+    for (const auto& b : badges) {
+        out += fmt::format("<div class=\"check {}\"><p><b>{}:</b> {}</p><dl>", b.good ? "good" : "bad", escape(b.name), escape(b.verdict));
+        for (const auto& [name, found] : b.figures) {
+            out += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", escape(name), escape(found));
+        }
+        out += "</dl></div>\n";
+    }
+    return out;
+}
+
+std::string of_section(const Section& s) {
+    std::string out = s.about.empty() ? "" : fmt::format("<p class=\"about\">{}</p>\n", escape(s.about));
+    out += figures(s.plots, "plots") + figures(s.roses, "roses");
+    for (const auto& t : s.tables) {
+        out += table(t);
+    }
+    return out;
 }
 
 } // namespace
 
 std::string to_html(const Record& r) {
-    std::string out = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-        "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{}</title><style>{}</style></head><body>\n",
-        escape(r.title), style);
-    out += fmt::format("<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<p><span class=\"status{}\">{}</span> {}</p>\n", escape(r.title),
-                       escape(r.subtitle), r.status == "complete" ? "" : " bad", escape(r.status), escape(r.stopped_by));
-    for (const auto& w : r.warnings) {
-        out += fmt::format("<p class=\"warn\">{}</p>\n", escape(w));
-    }
-    for (const auto& t : r.overview) {
-        out += text_table(t);
-    }
-    out += "<h2>Curves</h2>\n<div class=\"row\">\n";
-    for (const auto& p : r.plots) {
-        out += fmt::format("<figure class=\"plot\">{}<figcaption>{}</figcaption></figure>\n", to_svg(p), escape(p.title));
-    }
-    out += "</div>\n";
-    if (!r.results.empty()) {
-        out += "<h2>Results</h2>\n" + results_table(r.results);
-    }
-    for (const auto& b : r.badges) {
-        out += fmt::format("<div class=\"badge{}\"><b>{}: {}</b>", b.good ? "" : " bad", escape(b.name), escape(b.verdict));
-        for (const auto& [name, figure] : b.figures) {
-            out += fmt::format("<span>{}: {}</span><br>", escape(name), escape(figure));
+    Parts parts;
+    std::string body;
+    if (!r.overview.empty()) {
+        body += parts.begin("Overview");
+        for (const auto& t : r.overview) {
+            body += table(t);
         }
-        out += "</div>\n";
+    }
+    if (!r.plots.empty()) {
+        body += parts.begin("Curves");
+        body +=
+            "<p class=\"hint\" hidden>Point at a plot for its values. Drag to zoom, with Shift to move; once a plot is clicked, the wheel "
+            "zooms and the arrow keys move the cursor. Names below a plot switch its curves off and on.</p>\n";
+        body += figures(r.plots, "plots first-wide");
+    }
+    if (!r.results.empty()) {
+        body += parts.begin("Results") + table(r.results);
+    }
+    if (!r.badges.empty()) {
+        body += parts.begin("Checks") + checks(r.badges);
+    }
+    if (!r.portraits.empty()) {
+        body += parts.begin("Pictures") + figures(r.portraits, "pictures");
     }
     if (!r.pictures.empty()) {
-        out += "<h2>Pictures</h2>\n<div class=\"row\">\n";
-        for (const auto& p : r.pictures) {
-            out +=
-                fmt::format("<figure>{}<figcaption><b>{}.</b> {}</figcaption></figure>\n", to_svg(p), escape(p.title), escape(p.caption));
+        body += parts.begin("Slices") + figures(r.pictures, "pictures");
+    }
+    for (const auto& s : r.sections) {
+        body += parts.begin(s.title) + of_section(s);
+    }
+    if (!r.tables.empty()) {
+        body += parts.begin("Details");
+        for (const auto& t : r.tables) {
+            body += table(t);
         }
-        out += "</div>\n";
     }
-    for (const auto& t : r.tables) {
-        out += text_table(t);
+    if (!r.citation.empty()) {
+        body += parts.begin("How to cite") + fmt::format("<p class=\"cite\">{}</p>\n", escape(r.citation));
     }
-    return out + "</body></html>\n";
+    return fmt::format("{}<main id=\"main\">\n{}{}{}{}</main>\n<script>{}</script>\n</body></html>\n", head(r), summary(r),
+                       parts.contents(), body, parts.end(), page_script);
 }
 
 } // namespace proveta::report

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "reports/axis.hpp"
+#include "reports/describe.hpp"
+
 namespace proveta::report {
 
 std::string escape(const std::string& text) {
@@ -25,31 +28,70 @@ std::string escape(const std::string& text) {
 
 namespace {
 
-// An axis with round ticks.
-struct Axis {
-    double low, high, tick;
-
-    Axis(double from, double to) : low(from), high(to), tick(1.0) {
-        if (!(high > low)) {
-            high = low + 1.0;
-        }
-        const double raw = (high - low) / 6.0;
-        const double power = std::pow(10.0, std::floor(std::log10(raw)));
-        const double lead = raw / power;
-        tick = power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
-        low = std::floor(low / tick + 1e-9) * tick;
-        high = std::ceil(high / tick - 1e-9) * tick;
-    }
-    [[nodiscard]] double at(double v) const { return (v - low) / (high - low); }
-};
+using At = std::pair<double, double>;
 
 // Frame of the curves in the picture.
 struct Frame {
     double left, top, right, bottom;
 };
 
+// Axes and frame: from values to the picture.
+struct Chart {
+    Axis ax, ay;
+    Frame frame;
+    double height;
+
+    [[nodiscard]] double px(double v) const { return frame.left + ax.at(v) * (frame.right - frame.left); }
+    [[nodiscard]] double py(double v) const { return frame.bottom - ay.at(v) * (frame.bottom - frame.top); }
+};
+
+Chart chart_of(const Plot& plot, const PlotLook& look) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    double x0 = plot.x_from_zero ? 0.0 : none;
+    double x1 = plot.x_from_zero ? 0.0 : -none;
+    double y0 = 0.0;
+    double y1 = 0.0;
+    for (const auto& c : plot.curves) {
+        for (std::size_t k = 0; k < c.x.size(); ++k) {
+            if (std::isfinite(c.x[k]) && std::isfinite(c.y[k])) {
+                x0 = std::min(x0, c.x[k]);
+                x1 = std::max(x1, c.x[k]);
+                y0 = std::min(y0, c.y[k]);
+                y1 = std::max(y1, c.y[k]);
+            }
+        }
+    }
+    const double wide = look.letters * 0.55; // of a letter, about
+    const double rows = static_cast<double>(plot.rows.size());
+    Chart out{x0 <= x1 ? Axis(x0, x1) : Axis(0.0, 1.0), Axis(y0, y1), {}, plot.rows.empty() ? look.height : 110 + 36 * rows};
+    double left = 66;
+    for (const auto& row : plot.rows) {
+        left = std::max(left, 24 + wide * static_cast<double>(row.size()));
+    }
+    if (!plot.rows.empty()) {
+        out.ay.high = -0.3;
+        out.ay.low = -0.7 - rows;
+    }
+    Frame& frame = out.frame;
+    frame = {left, 14, look.width - 16, out.height - 24 - 2 * look.letters};
+    if (plot.equal_scale) {
+        // The axis that needs less room gives up the rest of it.
+        const double across = (out.ax.high - out.ax.low) / (frame.right - frame.left);
+        const double up = (out.ay.high - out.ay.low) / (frame.bottom - frame.top);
+        if (across > up) {
+            const double spare = (frame.bottom - frame.top) * (1.0 - up / across);
+            frame.bottom -= spare;
+            out.height -= spare;
+        } else {
+            frame.right = frame.left + (out.ax.high - out.ax.low) / up;
+        }
+    }
+    return out;
+}
+
 // Where the key stands: the first of the four corners that the fewest points of the curves run through. Left end and first baseline.
-template <class X, class Y> std::pair<double, double> key_place(const Plot& plot, const X& px, const Y& py, const Frame& f) {
+At key_place(const Plot& plot, const Chart& chart) {
+    const Frame& f = chart.frame;
     std::size_t longest = 0;
     std::size_t named = 0;
     for (const auto& c : plot.curves) {
@@ -71,8 +113,8 @@ template <class X, class Y> std::pair<double, double> key_place(const Plot& plot
                 const int parts = c.style == CurveStyle::points ? 1 : 8;
                 for (int part = 0; part < parts; ++part) { // along the line, not only at its ends
                     const double t = part / 8.0;
-                    const double x = px(c.x[k - 1] + t * (c.x[k] - c.x[k - 1]));
-                    const double y = py(c.y[k - 1] + t * (c.y[k] - c.y[k - 1]));
+                    const double x = chart.px(c.x[k - 1] + t * (c.x[k] - c.x[k - 1]));
+                    const double y = chart.py(c.y[k - 1] + t * (c.y[k] - c.y[k - 1]));
                     inside += x > corner.left && x < corner.right && y > corner.top && y < corner.bottom ? 1 : 0;
                 }
             }
@@ -87,159 +129,181 @@ template <class X, class Y> std::pair<double, double> key_place(const Plot& plot
 
 constexpr const char* dashes = " stroke-dasharray=\"7 4\"";
 
-std::string drawn(const Curve& c, const std::vector<std::pair<double, double>>& at) {
+// A small sign about (x, y); like the script's of the same number.
+std::string marker_at(int marker, double x, double y, const std::string& colour) {
+    switch (marker % 6) {
+    case 1: return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"6\" height=\"6\" fill=\"{}\"/>", x - 3, y - 3, colour);
+    case 2: return fmt::format("<path d=\"M{:.1f} {:.1f}l4 7h-8z\" fill=\"{}\"/>", x, y - 4, colour);
+    case 3: return fmt::format("<path d=\"M{:.1f} {:.1f}l4 4-4 4-4-4z\" fill=\"{}\"/>", x, y - 4, colour);
+    case 4: return fmt::format("<path d=\"M{:.1f} {:.1f}l6 6m0-6l-6 6\" stroke=\"{}\" stroke-width=\"2\"/>", x - 3, y - 3, colour);
+    case 5:
+        return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\" fill=\"#fff\" stroke=\"{}\" stroke-width=\"1.6\"/>", x, y,
+                           colour);
+    default: return fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"{}\"/>", x, y, colour);
+    }
+}
+
+// Markers along a line, a hundred or so apart, those of different curves at different places.
+std::string markers_along(const std::vector<At>& at, int marker, const std::string& colour) {
+    constexpr double apart = 110.0;
     std::string out;
+    double way = apart - 20.0 - 17.0 * marker;
+    for (std::size_t k = 1; k < at.size(); ++k) {
+        way += std::hypot(at[k].first - at[k - 1].first, at[k].second - at[k - 1].second);
+        if (way >= apart) {
+            out += marker_at(marker, at[k].first, at[k].second, colour);
+            way = 0.0;
+        }
+    }
+    return out;
+}
+
+std::string drawn_bars(const Plot& plot, std::size_t which, const Chart& chart) {
+    const Curve& c = plot.curves[which];
+    double apart = (chart.ax.high - chart.ax.low) / 8.0;
+    for (std::size_t k = 1; k < c.x.size(); ++k) {
+        apart = std::min(apart, std::fabs(c.x[k] - c.x[k - 1]));
+    }
+    double number = 0.0;
+    double place = 0.0;
+    for (std::size_t k = 0; k < plot.curves.size(); ++k) {
+        place = k == which ? number : place;
+        number += plot.curves[k].style == CurveStyle::bars ? 1.0 : 0.0;
+    }
+    const double wide = 0.86 * apart / number;
+    std::string out;
+    for (std::size_t k = 0; k < c.x.size(); ++k) {
+        const double left = chart.px(c.x[k] - 0.43 * apart + place * wide);
+        const double right = chart.px(c.x[k] - 0.43 * apart + (place + 1.0) * wide);
+        const double top = chart.py(std::max(0.0, c.y[k]));
+        const double bottom = chart.py(std::min(0.0, c.y[k]));
+        out += fmt::format(
+            "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\" fill-opacity=\"{}\" stroke=\"{}\"/>\n", left,
+            top, std::max(0.5, right - left), bottom - top, c.colour, place > 0.0 ? "0.2" : "0.85", c.colour);
+    }
+    return out;
+}
+
+std::string drawn(const Plot& plot, std::size_t which, int marker, const Chart& chart) {
+    const Curve& c = plot.curves[which];
+    if (c.style == CurveStyle::bars) {
+        return drawn_bars(plot, which, chart);
+    }
+    std::vector<At> at;
+    std::string points;
+    for (std::size_t k = 0; k < c.x.size(); ++k) {
+        if (std::isfinite(c.x[k]) && std::isfinite(c.y[k])) {
+            at.emplace_back(chart.px(c.x[k]), chart.py(c.y[k]));
+            points += fmt::format("{:.2f},{:.2f} ", at.back().first, at.back().second);
+        }
+    }
     if (c.style == CurveStyle::points) {
+        std::string out;
         for (const auto& [x, y] : at) {
-            out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"{}\"/>\n", x, y, c.colour);
+            out += marker_at(marker, x, y, c.colour) + "\n";
         }
         return out;
     }
-    for (const auto& [x, y] : at) {
-        out += fmt::format("{:.2f},{:.2f} ", x, y);
+    return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n", points,
+                       c.colour, c.width, c.style == CurveStyle::dashed ? dashes : "") +
+           (marker < 0 ? "" : markers_along(at, marker, c.colour));
+}
+
+std::string drawn_axes(const Plot& plot, const Chart& chart, const PlotLook& look) {
+    const Axis& ax = chart.ax;
+    const Axis& ay = chart.ay;
+    const Frame& frame = chart.frame;
+    std::string out;
+    for (double v = ax.low; v <= ax.high + 0.5 * ax.tick; v += ax.tick) {
+        out += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/>"
+                           "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" fill=\"#333\">{4}</text>\n",
+                           chart.px(v), frame.bottom, frame.top, frame.bottom + 4 + look.letters, ax.label(v));
     }
-    return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n", out,
-                       c.colour, c.width, c.style == CurveStyle::dashed ? dashes : "");
-}
-
-// A line of the key, its sign beginning at x.
-std::string key_line(const Curve& c, double x, double y) {
-    const std::string sign = c.style == CurveStyle::points
-                                 ? fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"3.5\" fill=\"{}\"/>", x + 11, y, c.colour)
-                                 : fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"{4}/>",
-                                               x, y, x + 22, c.colour, c.style == CurveStyle::dashed ? dashes : "");
-    return sign + fmt::format("<text x=\"{}\" y=\"{}\" fill=\"#111\">{}</text>\n", x + 28, y + 4, escape(c.name));
-}
-
-// White to blue to dark, readable in print.
-std::string shade(double t) {
-    t = std::clamp(t, 0.0, 1.0);
-    const auto mix = [t](double a, double b) { return static_cast<int>(std::lround(a + (b - a) * t)); };
-    return fmt::format("#{:02x}{:02x}{:02x}", mix(236, 30), mix(240, 78), mix(244, 121));
-}
-
-// Grey to red with the value, darker away from the light.
-std::string lit(double value, double light) {
-    value = std::clamp(value, 0.0, 1.0);
-    const double bright = 0.55 + 0.45 * std::clamp(light, 0.0, 1.0);
-    const auto mix = [&](double a, double b) { return static_cast<int>(std::lround(bright * (a + (b - a) * value))); };
-    return fmt::format("#{:02x}{:02x}{:02x}", mix(222, 196), mix(226, 64), mix(230, 48));
+    const auto row = [&](double at, const std::string& name) {
+        out += fmt::format("<line x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
+                           "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5}</text>\n",
+                           chart.py(at), frame.left, frame.right, frame.left - 6, chart.py(at) + 4, escape(name));
+    };
+    for (std::size_t k = 0; k < plot.rows.size(); ++k) {
+        row(-1.0 - static_cast<double>(k), plot.rows[k]);
+    }
+    for (double v = ay.low; plot.rows.empty() && v <= ay.high + 0.5 * ay.tick; v += ay.tick) {
+        row(v, ay.label(v));
+    }
+    // The axes themselves, where zero is.
+    for (const bool upright : {false, true}) {
+        const Axis& other = upright ? ax : ay;
+        if (other.low <= 0.0 && other.high >= 0.0) {
+            const double at = upright ? chart.px(0.0) : chart.py(0.0);
+            out +=
+                fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#8a949e\"/>\n",
+                            upright ? at : frame.left, upright ? frame.top : at, upright ? at : frame.right, upright ? frame.bottom : at);
+        }
+    }
+    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (frame.left + frame.right),
+                       chart.height - 10, escape(plot.x_title));
+    return out + fmt::format("<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n",
+                             0.5 * (frame.top + frame.bottom), escape(plot.y_title));
 }
 
 } // namespace
 
-std::string to_svg(const Plot& plot) {
-    constexpr double width = 640;
-    double height = plot.rows.empty() ? 380 : 110 + 36 * static_cast<double>(plot.rows.size());
-    double left = 66;
-    for (const auto& row : plot.rows) {
-        left = std::max(left, 24 + 6.6 * static_cast<double>(row.size()));
-    }
-    Frame frame{left, 14, width - 16, height - 48};
-    constexpr double none = std::numeric_limits<double>::infinity();
-    double x0 = plot.x_from_zero ? 0.0 : none;
-    double x1 = plot.x_from_zero ? 0.0 : -none;
-    double y0 = 0.0;
-    double y1 = 0.0;
+PlotRange range_of(const Plot& plot) {
+    const Chart chart = chart_of(plot, {});
+    return {chart.ax.low, chart.ax.high, chart.ay.low, chart.ay.high};
+}
+
+std::vector<int> markers_of(const Plot& plot) {
+    constexpr std::size_t most = 12; // more are a bundle, which nobody follows one by one
+    std::size_t named[4] = {};
+    std::vector<int> out;
+    int lines = 0;
+    int points = 0;
     for (const auto& c : plot.curves) {
-        for (std::size_t k = 0; k < c.x.size(); ++k) {
-            x0 = std::min(x0, c.x[k]);
-            x1 = std::max(x1, c.x[k]);
-            y0 = std::min(y0, c.y[k]);
-            y1 = std::max(y1, c.y[k]);
-        }
+        named[static_cast<std::size_t>(c.style)] += c.name.empty() ? 0 : 1;
     }
-    const Axis ax = x0 <= x1 ? Axis(x0, x1) : Axis(0.0, 1.0);
-    Axis ay(y0, y1);
-    if (!plot.rows.empty()) {
-        ay.high = -0.3;
-        ay.low = -0.7 - static_cast<double>(plot.rows.size());
+    for (const auto& c : plot.curves) {
+        const std::size_t alike = named[static_cast<std::size_t>(c.style)];
+        const bool line = c.style == CurveStyle::solid || c.style == CurveStyle::dashed;
+        const bool marked = line && !c.name.empty() && alike > 1 && alike <= most && plot.rows.empty();
+        out.push_back(c.style == CurveStyle::points ? points++ : marked ? lines++ : -1);
     }
-    if (plot.equal_scale) {
-        // The axis that needs less room gives up the rest of it.
-        const double across = (ax.high - ax.low) / (frame.right - frame.left);
-        const double up = (ay.high - ay.low) / (frame.bottom - frame.top);
-        if (across > up) {
-            const double spare = (frame.bottom - frame.top) * (1.0 - up / across);
-            frame.bottom -= spare;
-            height -= spare;
-        } else {
-            frame.right = frame.left + (ax.high - ax.low) / up;
-        }
+    return out;
+}
+
+std::string key_sign(const Curve& c, int marker, double x, double y) {
+    if (c.style == CurveStyle::bars) {
+        return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"14\" height=\"10\" fill=\"{}\" fill-opacity=\"{}\" stroke=\"{}\"/>", x + 4,
+                           y - 5, c.colour, marker > 0 ? "0.2" : "0.85", c.colour);
     }
-    const auto px = [&](double v) { return frame.left + ax.at(v) * (frame.right - frame.left); };
-    const auto py = [&](double v) { return frame.bottom - ay.at(v) * (frame.bottom - frame.top); };
-    std::string out = fmt::format("<svg viewBox=\"0 0 {} {:.6g}\" role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\" "
-                                  "font-family=\"sans-serif\" font-size=\"12\">\n",
-                                  width, height, escape(plot.title));
-    for (double v = ax.low; v <= ax.high + 0.5 * ax.tick; v += ax.tick) {
-        out += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#ddd\"/>"
-                           "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" fill=\"#333\">{4:.6g}</text>\n",
-                           px(v), py(ay.low), py(ay.high), py(ay.low) + 16, std::fabs(v) < 1e-9 * ax.tick ? 0.0 : v);
-    }
-    for (std::size_t k = 0; k < plot.rows.size(); ++k) {
-        const double y = py(-1.0 - static_cast<double>(k));
-        out += fmt::format("<line x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
-                           "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5}</text>\n",
-                           y, px(ax.low), px(ax.high), px(ax.low) - 6, y + 4, escape(plot.rows[k]));
-    }
-    for (double v = ay.low; plot.rows.empty() && v <= ay.high + 0.5 * ay.tick; v += ay.tick) {
-        out += fmt::format("<line x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\" stroke=\"#ddd\"/>"
-                           "<text x=\"{3:.1f}\" y=\"{4:.1f}\" text-anchor=\"end\" fill=\"#333\">{5:.6g}</text>\n",
-                           py(v), px(ax.low), px(ax.high), px(ax.low) - 6, py(v) + 4, std::fabs(v) < 1e-9 * ay.tick ? 0.0 : v);
-    }
-    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n", 0.5 * (frame.left + frame.right),
-                       height - 10, escape(plot.x_title));
-    out += fmt::format("<text transform=\"translate(16 {:.1f}) rotate(-90)\" text-anchor=\"middle\" fill=\"#111\">{}</text>\n",
-                       0.5 * (frame.top + frame.bottom), escape(plot.y_title));
-    const auto [key_left, key_top] = key_place(plot, px, py, frame);
+    const std::string line = c.style == CurveStyle::points
+                                 ? ""
+                                 : fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{2}\" y2=\"{1}\" stroke=\"{3}\" stroke-width=\"3\"{4}/>",
+                                               x, y, x + 22, c.colour, c.style == CurveStyle::dashed ? dashes : "");
+    return line + (marker < 0 ? "" : marker_at(marker, x + 11, y, c.colour));
+}
+
+std::string to_svg(const Plot& plot, const PlotLook& look) {
+    const Chart chart = chart_of(plot, look);
+    std::string out = fmt::format("<svg viewBox=\"0 0 {} {:.6g}\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\" "
+                                  "font-family=\"sans-serif\" font-size=\"{}\">\n<title>{}</title><desc>{}</desc>\n",
+                                  look.width, chart.height, look.letters, escape(plot.title), escape(describe(plot)));
+    out += drawn_axes(plot, chart, look);
+    const auto markers = markers_of(plot);
+    const auto [key_left, key_top] = look.key ? key_place(plot, chart) : At{};
     double key = key_top;
-    for (const auto& c : plot.curves) {
-        std::vector<std::pair<double, double>> at;
-        for (std::size_t k = 0; k < c.x.size(); ++k) {
-            at.emplace_back(px(c.x[k]), py(c.y[k]));
-        }
-        out += drawn(c, at);
-        if (plot.curves.size() > 1 && !c.name.empty()) {
-            out += key_line(c, key_left, key);
+    for (std::size_t k = 0; k < plot.curves.size(); ++k) {
+        const Curve& c = plot.curves[k];
+        out += drawn(plot, k, markers[k], chart);
+        if (look.key && plot.curves.size() > 1 && !c.name.empty()) {
+            out += key_sign(c, markers[k], key_left, key) +
+                   fmt::format("<text x=\"{}\" y=\"{}\" fill=\"#111\">{}</text>\n", key_left + 28, key + 4, escape(c.name));
             key += 17;
         }
     }
     for (const auto& [x, y] : plot.marks) {
-        out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"none\" stroke=\"#b03a2e\" stroke-width=\"2\"/>\n", px(x),
-                           py(y));
-    }
-    return out + "</svg>\n";
-}
-
-std::string to_svg(const Picture& p) {
-    const double scale = 1000.0; // mm
-    const double margin = 0.06 * p.width;
-    std::string out = fmt::format("<svg viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" aria-label=\"{}\" "
-                                  "xmlns=\"http://www.w3.org/2000/svg\">\n",
-                                  -scale * (0.5 * p.width + margin), -scale * (p.height + margin), scale * (p.width + 2 * margin),
-                                  scale * (p.height + 2 * margin), escape(p.title + ". " + p.caption));
-    for (const auto& f : p.facets) {
-        std::string points;
-        for (const auto& [x, z] : f.corner) {
-            points += fmt::format("{:.2f},{:.2f} ", scale * x, -scale * z);
-        }
-        const std::string fill = lit(f.value, f.light);
-        out += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\".3\"/>\n", points, fill, fill);
-    }
-    for (const auto& d : p.dots) {
-        out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"#9aa5b1\" stroke-width=\".15\"/>\n",
-                           scale * d.x, -scale * d.z, scale * d.radius, shade(d.value));
-    }
-    for (const auto& l : p.lines) {
-        const double w = std::clamp(l.weight, 0.0, 1.0);
-        out += fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{:.2f}\" "
-                           "stroke-opacity=\"{:.2f}\" stroke-linecap=\"round\"/>\n",
-                           scale * l.x0, -scale * l.z0, scale * l.x1, -scale * l.z1,
-                           l.mode == 0   ? "#333333"
-                           : l.mode == 1 ? "#c0392b"
-                                         : "#d68910",
-                           0.3 + 1.3 * w, 0.25 + 0.75 * w);
+        out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"5\" fill=\"none\" stroke=\"#b03a2e\" stroke-width=\"2\"/>\n",
+                           chart.px(x), chart.py(y));
     }
     return out + "</svg>\n";
 }

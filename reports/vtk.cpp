@@ -11,8 +11,9 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <filesystem>
 #include <stdexcept>
+
+#include "core/files/whole_file.hpp"
 
 namespace proveta::report {
 
@@ -72,17 +73,17 @@ void write_vtp(const std::string& file, const Geometry& g) {
     add_arrays(data->GetPointData(), g.point_arrays);
     add_arrays(data->GetCellData(), g.cell_arrays);
 
-    const std::string partial = file + ".partial";
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetFileName(partial.c_str());
+    writer->WriteToOutputStringOn();
     writer->SetInputData(data);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToZLib();
     if (writer->Write() == 0) {
-        throw std::runtime_error(file + " cannot be written");
+        throw std::runtime_error(file + ": VTK could not make it");
     }
-    std::filesystem::rename(partial, file);
+    const std::string text = writer->GetOutputString();
+    write_whole(file, text.data(), text.size());
 }
 
 std::string to_pvd(const std::vector<SeriesEntry>& entries) {

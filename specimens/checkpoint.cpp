@@ -1,7 +1,6 @@
 #include "specimens/checkpoint.hpp"
 
 #include <filesystem>
-#include <stdexcept>
 
 #include "specimens/hdf5_file.hpp"
 
@@ -9,36 +8,60 @@ namespace proveta {
 
 namespace {
 
-constexpr const char* format_name = "proveta checkpoint 1";
+constexpr const char* format_name = "proveta checkpoint 2";
+
+// Stores what it is shown, or restores it.
+template <class Go> class Visitor : public StateVisitor {
+  public:
+    explicit Visitor(Go go) : go_(go) {}
+
+    void operator()(const std::string& name, double& value) override { go_(name, value); }
+    void operator()(const std::string& name, std::int64_t& value) override { go_(name, value); }
+    void operator()(const std::string& name, std::string& value) override { go_(name, value); }
+    void operator()(const std::string& name, std::vector<double>& values) override { go_(name, values); }
+    void operator()(const std::string& name, std::vector<std::int32_t>& values) override { go_(name, values); }
+    void operator()(const std::string& name, std::vector<std::uint8_t>& values) override { go_(name, values); }
+
+  private:
+    Go go_;
+};
 
 } // namespace
 
-void save_checkpoint(Model& model, const std::string& deck, const std::string& file) {
-    const std::string partial = file + ".partial";
-    {
-        Hdf5File h(partial, Hdf5File::Mode::create);
-        h.put_text("format", format_name);
-        h.put_text("deck", deck);
-        model.visit_state([&](const std::string& name, auto& value) { h.put(name, value); });
-        h.close();
-    }
-    std::filesystem::rename(partial, file);
+std::string earlier_checkpoint(const std::string& file) {
+    const std::filesystem::path path(file);
+    return (path.parent_path() / (path.stem().string() + ".earlier" + path.extension().string())).string();
 }
 
-void load_checkpoint(Model& model, const std::string& file) {
-    const Hdf5File h(file, Hdf5File::Mode::read);
-    if (!h.has("format") || h.get_text("format") != format_name) {
-        throw std::runtime_error(file + ": not a checkpoint of this program");
+void save_checkpoint(const std::string& file, const std::string& owner, const VisitState& state) {
+    const std::string next = file + ".next";
+    Hdf5File h(next, Hdf5File::Mode::create);
+    h.put_text("format", format_name);
+    h.put_text("owner", owner);
+    Visitor visitor([&](const std::string& name, const auto& value) { h.put(name, value); });
+    state(visitor);
+    h.close();
+    std::error_code none_before;
+    std::filesystem::rename(file, earlier_checkpoint(file), none_before);
+    std::filesystem::rename(next, file); // who is killed just before it still has the earlier one
+}
+
+void load_checkpoint(const std::string& file, const std::string& owner, const VisitState& state) {
+    try {
+        const Hdf5File h(file, Hdf5File::Mode::read);
+        if (!h.has("format") || h.get_text("format") != format_name) {
+            throw CheckpointError(file + ": not a checkpoint of this program");
+        }
+        if (h.get_text("owner") != owner) {
+            throw CheckpointError(file + ": belongs to another calculation");
+        }
+        Visitor visitor([&](const std::string& name, auto& value) { h.get(name, value); });
+        state(visitor);
+    } catch (const CheckpointError&) {
+        throw;
+    } catch (const std::runtime_error& e) {
+        throw CheckpointError(e.what());
     }
-    std::vector<double> x;
-    h.get("position_x", x);
-    std::vector<std::uint8_t> mode;
-    h.get("bond_mode", mode);
-    if (x.size() != model.spheres.size() || mode.size() != model.bonds.size()) {
-        throw std::runtime_error(file + ": belongs to another specimen");
-    }
-    model.visit_state([&](const std::string& name, auto& value) { h.get(name, value); });
-    model.restored();
 }
 
 } // namespace proveta

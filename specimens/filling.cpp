@@ -163,6 +163,7 @@ Numerics Work::numerics() const {
     Numerics n;
     n.time_step = step_;
     n.refuse_unstable = false;
+    n.energy_made = std::numeric_limits<double>::infinity(); // spheres that grow bring energy with them
     n.skin = 0.3;
     n.fastest = 0.5;
     n.gravity = Vec3(0.0, 0.0, -gravity);

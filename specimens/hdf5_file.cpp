@@ -3,9 +3,15 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <string_view>
 
+#include "core/files/whole_file.hpp"
+#include "core/hash.hpp"
 #include "specimens/memory.hpp"
 
 namespace proveta {
@@ -32,6 +38,41 @@ class Handle {
     hid_t id_;
     herr_t (*close_)(hid_t);
 };
+
+// A file of this program ends, behind what HDF5 reads of it, with a mark that holds a hash of all before: what a disk or a cable did to it
+// is found before the library, which trusts its own records, looks at any.
+constexpr std::string_view mark_begins = "\nproveta hash ";
+constexpr std::size_t mark_size = mark_begins.size() + 16;
+
+std::string mark_of(const Hash& hash) {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash.value()));
+    return std::string(mark_begins) + digits;
+}
+
+// Throws when a file's mark does not agree with the rest. Other programs' files have none.
+void check_mark(const std::string& path) {
+    std::ifstream in(path, std::ios::binary | std::ios::ate);
+    const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
+    const std::streamoff body = size - static_cast<std::streamoff>(mark_size);
+    if (body <= 0) {
+        return;
+    }
+    char mark[mark_size];
+    in.seekg(body);
+    if (!in.read(mark, mark_size) || !std::string_view(mark, mark_size).starts_with(mark_begins)) {
+        return;
+    }
+    Hash hash;
+    char buffer[65536];
+    in.seekg(0);
+    for (std::streamoff left = body; left > 0 && in.read(buffer, std::min<std::streamoff>(left, sizeof buffer)); left -= in.gcount()) {
+        hash.mix(buffer, static_cast<std::size_t>(in.gcount()));
+    }
+    if (mark_of(hash) != std::string_view(mark, mark_size)) {
+        throw std::runtime_error(path + ": damaged: its content does not agree with its hash");
+    }
+}
 
 // Whether an array is stored as this program stores them: numbers, in the file itself, in pieces of moderate size, of no filters but the
 // two that it uses. What else HDF5 can do takes its library to other files, and to sizes that a file only claims.
@@ -65,10 +106,18 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
     if (std::error_code error; mode == Mode::read && !std::filesystem::is_regular_file(path, error)) {
         throw std::runtime_error(path + ": no such file"); // HDF5 would wait for a pipe
     }
-    file_ = mode == Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)
-                                 : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (mode == Mode::create) {
+        // The library does not stand a disk that fills up under it: it never sees one.
+        const Handle memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+        constexpr std::size_t growth = 1u << 20;
+        H5Pset_fapl_core(memory.id(), growth, false);
+        file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory.id());
+    } else {
+        check_mark(path);
+        file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    }
     if (file_ < 0) {
-        throw std::runtime_error(path + (mode == Mode::create ? ": cannot be written" : ": missing, or not an HDF5 file"));
+        throw std::runtime_error(path + (mode == Mode::create ? ": cannot be made" : ": missing, cut short, or not an HDF5 file"));
     }
 }
 
@@ -79,12 +128,17 @@ Hdf5File::~Hdf5File() {
 }
 
 void Hdf5File::close() {
-    const bool good = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
-    const bool closed = H5Fclose(file_) >= 0;
-    file_ = -1;
-    if (!good || !closed) {
-        throw std::runtime_error(path_ + ": writing failed (is the disk full?)");
+    H5Fflush(file_, H5F_SCOPE_GLOBAL);
+    const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+    std::vector<char> bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    if (size <= 0 || H5Fget_file_image(file_, bytes.data(), bytes.size()) != size) {
+        throw std::runtime_error(path_ + ": cannot be made");
     }
+    Hash hash;
+    hash.mix(bytes.data(), bytes.size());
+    const std::string mark = mark_of(hash);
+    bytes.insert(bytes.end(), mark.begin(), mark.end());
+    write_whole(path_, bytes.data(), bytes.size());
 }
 
 void Hdf5File::put_raw(const std::string& name, const void* data, std::size_t n, std::int64_t type, bool compress) {

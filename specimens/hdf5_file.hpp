@@ -7,8 +7,8 @@
 
 namespace proveta {
 
-/// An HDF5 file open for writing (made anew) or for reading. All failures throw std::runtime_error with the file's name. Arrays are
-/// one-dimensional; types are those overloaded below.
+/// An HDF5 file that is made anew, in memory until `close` puts all of it on disk at once, or one open for reading. All failures throw
+/// std::runtime_error with the file's name, those of the disk FileError. Arrays are one-dimensional; types are those overloaded below.
 class Hdf5File {
   public:
     enum class Mode { create, read };
@@ -23,6 +23,7 @@ class Hdf5File {
     void put(const std::string& name, const std::vector<std::uint8_t>& values);
     void put(const std::string& name, double value) { put(name, std::vector<double>{value}); }
     void put(const std::string& name, std::int64_t value);
+    void put(const std::string& name, const std::string& text) { put_text(name, text); }
     void put_text(const std::string& name, const std::string& text);
 
     [[nodiscard]] bool has(const std::string& name) const;
@@ -31,9 +32,10 @@ class Hdf5File {
     void get(const std::string& name, std::vector<std::uint8_t>& values) const;
     void get(const std::string& name, double& value) const;
     void get(const std::string& name, std::int64_t& value) const;
+    void get(const std::string& name, std::string& text) const { text = get_text(name); }
     [[nodiscard]] std::string get_text(const std::string& name) const;
 
-    /// Writes everything to disk and closes; failures that the destructor would swallow are thrown here.
+    /// Writes the file that was made, whole or not at all. Without it nothing is written.
     void close();
 
   private:

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/files/whole_file.hpp"
 #include "core/input/text_file.hpp"
 #include "specimens/memory.hpp"
 
@@ -231,21 +232,14 @@ Specimen import_specimen(const std::string& file, const ImportOptions& o) {
 }
 
 void export_csv(const Specimen& s, const std::string& file) {
-    const std::string partial = file + ".partial";
-    {
-        std::ofstream out(partial);
-        out << "x_m,y_m,z_m,r_m,group\n";
-        const SpheresInSpace all = spheres_in_space(s);
-        for (std::size_t k = 0; k < all.spheres.radius.size(); ++k) {
-            const Vec3 p = all.spheres.centre.at(k);
-            out << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{}\n", p.x(), p.y(), p.z(), all.spheres.radius[k],
-                               s.stones.empty() ? s.group[k] : all.particle[k]);
-        }
-        if (!out.flush()) {
-            throw std::runtime_error(file + ": cannot be written");
-        }
+    std::string out = "x_m,y_m,z_m,r_m,group\n";
+    const SpheresInSpace all = spheres_in_space(s);
+    for (std::size_t k = 0; k < all.spheres.radius.size(); ++k) {
+        const Vec3 p = all.spheres.centre.at(k);
+        out += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{}\n", p.x(), p.y(), p.z(), all.spheres.radius[k],
+                           s.stones.empty() ? s.group[k] : all.particle[k]);
     }
-    std::filesystem::rename(partial, file);
+    write_whole(file, out.data(), out.size());
 }
 
 } // namespace proveta

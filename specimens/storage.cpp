@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -123,31 +122,26 @@ std::vector<Stone> get_stones(const Hdf5File& h, std::size_t forms) {
 } // namespace
 
 void save_specimen(const Specimen& s, const std::string& file) {
-    const std::string partial = file + ".partial";
-    {
-        Hdf5File h(partial, Hdf5File::Mode::create);
-        h.put_text("format", format_name);
-        h.put("x", s.spheres.centre.x);
-        h.put("y", s.spheres.centre.y);
-        h.put("z", s.spheres.centre.z);
-        h.put("radius", s.spheres.radius);
-        h.put("group", std::vector<std::int32_t>(s.group.begin(), s.group.end()));
-        h.put("shape",
-              std::vector<double>{static_cast<double>(s.shape.kind), s.shape.diameter, s.shape.width, s.shape.depth, s.shape.height});
-        h.put_text("recipe", s.recipe.dump());
-        if (!s.stones.empty()) {
-            put_stones(s, h);
-        }
-        const SpecimenStatistics st = statistics(s);
-        h.put("mean_radius", st.mean_radius);
-        h.put("relative_deviation", st.relative_deviation);
-        h.put("porosity", st.porosity);
-        h.put("touching", st.touching);
-        h.put("largest_overlap", st.largest_overlap);
-        h.put("fabric_deviator", st.fabric_deviator);
-        h.close();
+    Hdf5File h(file, Hdf5File::Mode::create);
+    h.put_text("format", format_name);
+    h.put("x", s.spheres.centre.x);
+    h.put("y", s.spheres.centre.y);
+    h.put("z", s.spheres.centre.z);
+    h.put("radius", s.spheres.radius);
+    h.put("group", std::vector<std::int32_t>(s.group.begin(), s.group.end()));
+    h.put("shape", std::vector<double>{static_cast<double>(s.shape.kind), s.shape.diameter, s.shape.width, s.shape.depth, s.shape.height});
+    h.put_text("recipe", s.recipe.dump());
+    if (!s.stones.empty()) {
+        put_stones(s, h);
     }
-    std::filesystem::rename(partial, file);
+    const SpecimenStatistics st = statistics(s);
+    h.put("mean_radius", st.mean_radius);
+    h.put("relative_deviation", st.relative_deviation);
+    h.put("porosity", st.porosity);
+    h.put("touching", st.touching);
+    h.put("largest_overlap", st.largest_overlap);
+    h.put("fabric_deviator", st.fabric_deviator);
+    h.close();
 }
 
 Specimen load_specimen(const std::string& file) {

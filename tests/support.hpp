@@ -12,8 +12,21 @@
 #include "lab/bench.hpp"
 #include "lab/verification/brittle.hpp"
 #include "lab/verification/unbreakable.hpp"
+#include "specimens/checkpoint.hpp"
 
 namespace proveta::testing {
+
+/// A model's state in a file, and back into one that was set up the same way.
+inline std::string owner_of(const Model& m) {
+    return std::to_string(m.spheres.size()) + " spheres, " + std::to_string(m.bonds.size()) + " bonds";
+}
+inline void save_model(Model& m, const std::string& file) {
+    save_checkpoint(file, owner_of(m), [&](StateVisitor& visit) { m.visit_state(visit); });
+}
+inline void load_model(Model& m, const std::string& file) {
+    load_checkpoint(file, owner_of(m), [&](StateVisitor& visit) { m.visit_state(visit); });
+    m.restored();
+}
 
 using verification::unbreakable;
 

@@ -1,6 +1,7 @@
 #include "core/parallel/team.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace proveta {
 
@@ -70,6 +71,10 @@ void Team::start(std::size_t parts, Function function, void* object) {
     for (std::uint32_t seen = done_.load(std::memory_order_acquire); seen != parts_; seen = done_.load(std::memory_order_acquire)) {
         wait_for_change(done_, seen);
     }
+    if (failed_.load()) {
+        failed_.store(false);
+        std::rethrow_exception(std::exchange(failure_, nullptr));
+    }
 }
 
 bool Team::take(Share& share, std::size_t& part) {
@@ -92,7 +97,13 @@ void Team::work(std::size_t self) {
     std::size_t part = 0;
     for (std::size_t k = 0; k < shares_.size(); ++k) {
         while (take(shares_[(self + k) % shares_.size()], part)) {
-            function_(object_, part); // a part that was taken keeps its job alive until it is counted below
+            try {
+                function_(object_, part); // a part that was taken keeps its job alive until it is counted below
+            } catch (...) {
+                if (!failed_.exchange(true)) {
+                    failure_ = std::current_exception();
+                }
+            }
             ++done;
         }
     }

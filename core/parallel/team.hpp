@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <thread>
 #include <type_traits>
@@ -27,7 +28,8 @@ class Team {
 
     static constexpr std::size_t most_parts = (1u << 20) - 1;
 
-    /// Calls work(part) once for every part below `parts`, at most `most_parts`, and returns when all are done. work must not throw.
+    /// Calls work(part) once for every part below `parts`, at most `most_parts`, and returns when all are done; throws what the first of
+    /// them threw, if any did.
     template <class Work> void run(std::size_t parts, Work&& work) {
         using Plain = std::remove_reference_t<Work>;
         start(
@@ -54,6 +56,8 @@ class Team {
     alignas(64) std::atomic<std::uint32_t> job_{0};
     alignas(64) std::atomic<std::uint32_t> done_{0}; // parts done of this job
     std::atomic<bool> over_{false};
+    std::atomic<bool> failed_{false};
+    std::exception_ptr failure_; // of the first part that threw
     std::vector<std::thread> workers_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lab/citation.hpp"
 #include "lab/provenance.hpp"
 
 namespace proveta {
@@ -179,9 +180,9 @@ std::vector<Plot> curve_plots(const std::vector<Target>& targets, const Calibrat
         const double sx = scale_of(t.input.x);
         const double sy = scale_of(t.input.y);
         Plot plot{t.input.test + (t.input.fitted() ? " (fitted)" : " (predicted)"), axis_of(t.input.x), axis_of(t.input.y), {}, {}};
-        Curve wanted{t.input.kind, {}, {}, "#111111", CurveStyle::dashed};
+        Curve wanted{t.input.kind, {}, {}, "#111111", CurveStyle::points};
         Curve found{"this card, mean over specimens", {}, {}, t.input.fitted() ? "#1f4e79" : "#c0392b"};
-        for (std::size_t k = 0; k < t.curve.x.size(); ++k) {
+        for (std::size_t k = 0; k < t.curve.x.size(); k += t.curve.x.size() / 60 + 1) { // so many that they can be told apart
             wanted.x.push_back(sx * t.curve.x[k]);
             wanted.y.push_back(sy * t.curve.y[k]);
         }
@@ -189,7 +190,7 @@ std::vector<Plot> curve_plots(const std::vector<Target>& targets, const Calibrat
             found.x.push_back(sx * c.curve.x[k]);
             found.y.push_back(sy * c.curve.y[k]);
         }
-        plot.curves = {wanted, found};
+        plot.curves = {found, wanted};
         out.push_back(std::move(plot));
     }
     return out;
@@ -293,6 +294,25 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
         r.results.push_back({"noise_of_score", "Noise floor of the score", outcome.confidence->noise_of_score, "",
                              "root mean square of what single small specimens of one card differ by, in tolerances"});
     }
+    std::size_t fitted = 0;
+    std::size_t met = 0;
+    for (const auto& t : targets) {
+        const Comparison c = compare(t, result_for(t, targets, outcome), folders);
+        fitted += t.input.fitted() ? 1 : 0;
+        met += t.input.fitted() && c.found && std::fabs(c.distance) <= t.input.tolerance ? 1 : 0;
+    }
+    r.key_figures = {{"Targets met", fmt::format("{} of {}", met, fitted), "", "within their tolerances"},
+                     {"Score", fmt::format("{:.3g}", best.deviations.score()), "tolerances", "root mean square deviation"}};
+    const auto values = plan.space.values(best.u);
+    for (std::size_t k = 0; k < std::min<std::size_t>(plan.space.size(), 2); ++k) {
+        const auto& p = plan.space[k];
+        const std::string unit = p.times.empty() ? p.unit : "";
+        const auto read = report::readable({"", "", values[k], unit, ""});
+        r.key_figures.push_back({p.name + (p.times.empty() ? "" : " over " + p.times),
+                                 fmt::format("{:.4g}", read.value.value_or(values[k])), read.unit,
+                                 fmt::format("sought from {} to {}", shown(p.low, unit), shown(p.high, unit))});
+    }
+    r.citation = citation("Calibration", plan.input.title, plan.written);
     r.plots = curve_plots(targets, outcome, folders);
     r.plots.push_back(progress_plot(outcome));
     if (outcome.confidence) {

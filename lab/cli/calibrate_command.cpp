@@ -108,6 +108,8 @@ void write_results(const fs::path& out, const CalibrationPlan& plan, const std::
     fmt::print("card in {}, report in {}\n", (out / "card.json").string(), (out / "report.html").string());
 }
 
+} // namespace
+
 int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     const fs::path out = a.out.empty() ? fs::path("results") / fs::path(a.file).stem() : fs::path(a.out);
     if (a.status) {
@@ -136,11 +138,9 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     } catch (const TrialsInterrupted&) {
         write_manifest(out, plan, typed, "interrupted");
         spdlog::warn("interrupted; the same command goes on from {} trials", book.known());
-        return exit_interrupted;
+        return exit_interrupted();
     }
 }
-
-} // namespace
 
 void add_calibrate(CLI::App& app, const std::string& typed, Command& chosen) {
     auto a = std::make_shared<TrialsArguments>();

@@ -14,6 +14,10 @@ namespace proveta {
 using Command = std::function<int()>;
 
 void add_run(CLI::App& app, const std::string& typed, Command& chosen);
+void add_resume(CLI::App& app, const std::string& typed, Command& chosen);
+void add_report(CLI::App& app, const std::string& typed, Command& chosen);
+void add_compare(CLI::App& app, const std::string& typed, Command& chosen);
+void add_plot(CLI::App& app, Command& chosen);
 void add_check(CLI::App& app, Command& chosen);
 void add_describe(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
@@ -57,15 +61,22 @@ struct TrialsArguments : RunArguments {
 /// Adds the file (what it is called, "sweep"), --threads, --out, --quiet, --status, --plan and --collect.
 void add_trials(CLI::App& command, TrialsArguments& a, const std::string& what, const std::string& folder);
 
+/// Carries a sweep out and returns the exit code.
+int carry_out_sweep(const TrialsArguments& a, const std::string& typed);
+/// Carries a calibration out and returns the exit code.
+int carry_out_calibration(const TrialsArguments& a, const std::string& typed);
+
 /// Takes the number of threads over, if one is given.
 void use_threads(int threads);
 
 /// The exit code of a run that ended so.
 int exit_code(RunStatus status);
 
-/// Exit codes: the user's input, the calculation, an interrupt.
+/// Exit codes: the user's input, the calculation, the disk.
 constexpr int exit_input = 2;
 constexpr int exit_calculation = 3;
-constexpr int exit_interrupted = 130;
+constexpr int exit_files = 4;
+/// The exit code of work that a signal ended early, as shells have it: 130 for SIGINT, 143 for SIGTERM.
+int exit_interrupted();
 
 } // namespace proveta

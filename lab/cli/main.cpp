@@ -3,9 +3,13 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
+#include "core/files/whole_file.hpp"
 #include "core/input/json.hpp"
 #include "core/input/suggest.hpp"
 #include "lab/cli/commands.hpp"
@@ -28,6 +32,23 @@ std::string unknown_command(const CLI::App& app, const std::string& word) {
 
 namespace {
 
+// Where threads of OpenMP run out of memory nobody can catch it.
+[[noreturn]] void end_with_a_word() {
+    try {
+        if (const auto cause = std::current_exception()) {
+            std::rethrow_exception(cause);
+        }
+        std::fputs("error: the program ended itself\n", stderr);
+    } catch (const std::bad_alloc&) {
+        std::fputs("error: not enough memory for this specimen; ask for fewer spheres\n", stderr);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "error: %s\n", e.what());
+    } catch (...) {
+        std::fputs("error: something unknown was thrown\n", stderr);
+    }
+    std::_Exit(proveta::exit_calculation);
+}
+
 int guarded(const proveta::Command& command) {
     try {
         return command();
@@ -36,6 +57,9 @@ int guarded(const proveta::Command& command) {
             spdlog::error("{}", problem.text());
         }
         return proveta::exit_input;
+    } catch (const proveta::FileError& e) {
+        spdlog::error("{}", e.what());
+        return proveta::exit_files;
     } catch (const std::bad_alloc&) {
         spdlog::error("not enough memory for this specimen; ask for fewer spheres");
         return proveta::exit_calculation;
@@ -55,13 +79,22 @@ int main(int argc, char** argv) {
     for (int k = 1; k < argc; ++k) {
         typed += std::string(" ") + argv[k];
     }
+    std::set_terminate(end_with_a_word);
+    std::signal(SIGXFSZ, SIG_IGN); // a file over its limit is an error like a full disk
+    std::signal(SIGPIPE, SIG_IGN); // a reader of ours that has gone is no reason to lose a calculation
     CLI::App app{"Proveta, a virtual materials laboratory: makes a specimen out of bonded spheres, puts it in the press and breaks it.",
                  "proveta"};
     app.set_version_flag("--version", proveta::version_text());
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the calculation failed, 130 interrupted.");
+    app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the calculation failed, 4 files cannot be written, 130 or 143 interrupted by "
+               "Ctrl-C or "
+               "SIGTERM.");
     proveta::Command chosen;
     proveta::add_run(app, typed, chosen);
+    proveta::add_resume(app, typed, chosen);
+    proveta::add_report(app, typed, chosen);
+    proveta::add_compare(app, typed, chosen);
+    proveta::add_plot(app, chosen);
     proveta::add_check(app, chosen);
     proveta::add_describe(app, chosen);
     proveta::add_schema(app, chosen);

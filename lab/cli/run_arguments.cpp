@@ -2,6 +2,7 @@
 #include <omp.h>
 
 #include "lab/cli/commands.hpp"
+#include "lab/progress.hpp"
 
 namespace proveta {
 
@@ -38,10 +39,12 @@ void use_threads(int threads) {
     }
 }
 
+int exit_interrupted() { return 128 + interrupt_signal(); }
+
 int exit_code(RunStatus status) {
     switch (status) {
     case RunStatus::complete: return 0;
-    case RunStatus::interrupted: return exit_interrupted;
+    case RunStatus::interrupted: return exit_interrupted();
     case RunStatus::failed: break;
     }
     return exit_calculation;

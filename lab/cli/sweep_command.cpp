@@ -12,8 +12,6 @@
 
 namespace proveta {
 
-namespace {
-
 int carry_out_sweep(const TrialsArguments& a, const std::string& typed) {
     use_threads(a.threads);
     const Sweep sweep = read_sweep(a.file);
@@ -42,8 +40,6 @@ int carry_out_sweep(const TrialsArguments& a, const std::string& typed) {
         return exit_calculation;
     }
 }
-
-} // namespace
 
 void add_sweep(CLI::App& app, const std::string& typed, Command& chosen) {
     auto a = std::make_shared<TrialsArguments>();

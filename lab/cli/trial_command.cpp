@@ -57,7 +57,7 @@ int carry_out_trials(const Arguments& a) {
         for (const auto& name : a.job.empty() ? names : std::vector<std::string>{a.job}) {
             if (!fs::exists(folders[k] / name / "result.json") && !run_job(folders[k] / name)) {
                 spdlog::warn("interrupted; the job has no result and will be done again");
-                return exit_interrupted;
+                return exit_interrupted();
             }
         }
     }

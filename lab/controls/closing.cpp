@@ -21,9 +21,16 @@ Drive SteadyClosing::drive(const BenchView& bench) {
     return {from_ + (speed_ - from_) * smooth_start(bench.model.time() - begun_, ramp_), pressure_};
 }
 
+void SteadyClosing::visit_state(const std::string& prefix, StateVisitor& visit) {
+    visit(prefix + "begun", begun_);
+    visit(prefix + "from", from_);
+}
+
 void LedClosing::begin(const BenchView& bench, const Drive& last) {
     rate_.start(last.closing);
-    origin_ = origin_.value_or(bench.strain());
+    if (std::isnan(origin_)) {
+        origin_ = bench.strain();
+    }
 }
 
 Drive LedClosing::drive(const BenchView&) { return {rate_.rate(), pressure_}; }
@@ -35,11 +42,16 @@ void LedClosing::stepped(const BenchView& bench, bool measured) {
         const Ledger& l = bench.model.ledger();
         const double lower = bench.model.walls.platens[0].load();
         const double upper = bench.model.walls.platens[1].load();
-        rate_.observe({bench.strain() - origin_.value_or(0.0), l.platens + l.pressure, l.damage, l.kinetic, l.elastic,
+        rate_.observe({bench.strain() - origin_, l.platens + l.pressure, l.damage, l.kinetic, l.elastic,
                        bench.model.measures().unbalanced_ratio,
                        std::fabs(lower - upper) / std::max(0.5 * std::fabs(lower + upper), 1e-300)});
     }
     rate_.advance(bench.model.dt());
+}
+
+void LedClosing::visit_state(const std::string& prefix, StateVisitor& visit) {
+    rate_.visit([&](const char* name, double& value) { visit(prefix + name, value); });
+    visit(prefix + "origin", origin_);
 }
 
 void Unloading::begin(const BenchView& bench, const Drive& last) {
@@ -51,6 +63,13 @@ void Unloading::begin(const BenchView& bench, const Drive& last) {
 
 Drive Unloading::drive(const BenchView& bench) {
     return {from_ + (to_ - from_) * smooth_start(bench.model.time() - begun_, ramp_), pressure_};
+}
+
+void Unloading::visit_state(const std::string& prefix, StateVisitor& visit) {
+    visit(prefix + "begun", begun_);
+    visit(prefix + "from", from_);
+    visit(prefix + "to", to_);
+    visit(prefix + "ramp", ramp_);
 }
 
 } // namespace proveta

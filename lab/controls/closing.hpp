@@ -1,8 +1,7 @@
 // Platens that close at a steady speed, at one that the test leads itself, or go back to unload.
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <limits>
 
 #include "lab/controls/control.hpp"
 #include "lab/controls/rate_control.hpp"
@@ -20,6 +19,7 @@ class SteadyClosing : public Control {
 
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
+    void visit_state(const std::string& prefix, StateVisitor& visit) override;
 
   private:
     double speed_, ramp_, pressure_;
@@ -37,11 +37,12 @@ class LedClosing : public Control {
     [[nodiscard]] Drive drive(const BenchView& bench) override;
     [[nodiscard]] bool looks(const BenchView& bench) const override;
     void stepped(const BenchView& bench, bool measured) override;
+    void visit_state(const std::string& prefix, StateVisitor& visit) override;
 
   private:
     RateControl rate_;
     double pressure_;
-    std::optional<double> origin_; // strain at which the loading began
+    double origin_ = std::numeric_limits<double>::quiet_NaN(); // strain at which the loading began, once it has
 };
 
 /// The platens go back, at a steady speed in m/s or, with 0, at a twentieth of the strain per crossing of a wave: nothing breaks on
@@ -52,6 +53,7 @@ class Unloading : public Control {
 
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
+    void visit_state(const std::string& prefix, StateVisitor& visit) override;
 
   private:
     double speed_, pace_, pressure_;

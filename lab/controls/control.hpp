@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "core/state.hpp"
+
 namespace proveta {
 
 struct BenchView;
@@ -27,6 +29,8 @@ class Control {
     [[nodiscard]] virtual bool looks(const BenchView&) const { return false; }
     /// A step was made. measured: the model's measures and ledger are those of this step.
     virtual void stepped(const BenchView&, bool measured) { static_cast<void>(measured); }
+    /// Names what the drive of later steps depends on, each name after `prefix`, so that a stage can be gone on with in its midst.
+    virtual void visit_state(const std::string& prefix, StateVisitor& visit) = 0;
 };
 
 } // namespace proveta

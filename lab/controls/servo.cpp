@@ -70,4 +70,18 @@ Drive GirthServo::drive(const BenchView& bench) {
     return {speed_, pressure_};
 }
 
+void StressServo::visit_state(const std::string& prefix, StateVisitor& visit) {
+    visit(prefix + "clock", clock_);
+    visit(prefix + "speed", speed_);
+    visit(prefix + "integral", integral_);
+}
+
+void GirthServo::visit_state(const std::string& prefix, StateVisitor& visit) {
+    visit(prefix + "rate", rate_);
+    visit(prefix + "begun", begun_);
+    visit(prefix + "from", from_);
+    visit(prefix + "limit", limit_);
+    visit(prefix + "speed", speed_);
+}
+
 } // namespace proveta

@@ -26,6 +26,7 @@ class StressServo : public Control {
 
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
+    void visit_state(const std::string& prefix, StateVisitor& visit) override;
 
     [[nodiscard]] double clock() const { return clock_; } ///< s
 
@@ -48,6 +49,7 @@ class GirthServo : public Control {
 
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
+    void visit_state(const std::string& prefix, StateVisitor& visit) override;
 
   private:
     double rate_, lateral_, pressure_;

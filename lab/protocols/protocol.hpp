@@ -66,6 +66,8 @@ struct Stage {
     double share = 1.0; ///< of the test's samples, all stages' adding up to about 1
     std::shared_ptr<Control> control;
     std::function<double(const BenchView&)> done; ///< share of the stage that is done; at 1 it is over
+    /// What `done` remembers, named like a control's state; empty when it remembers nothing.
+    std::function<void(const std::string& prefix, StateVisitor& visit)> memory = nullptr;
 };
 
 /// What a test has measured.

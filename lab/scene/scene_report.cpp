@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/parallel/instruction_set.hpp"
+#include "lab/citation.hpp"
 #include "lab/provenance.hpp"
 #include "lab/quasi_static.hpp"
 #include "lab/results.hpp"
@@ -155,6 +156,8 @@ report::Record scene_record(const Scene& scene, const ScenePlay& play, const Sce
     r.status = seen.status;
     r.stopped_by = seen.stopped_by;
     r.results = results_of(play, seen);
+    r.key_figures = report::key_figures(r.results, {"particles", "mass", "rms_speed", "largest_overlap"});
+    r.citation = citation("Scene", scene.title, resolved(scene));
     r.badges = {energy_badge(play.model())};
     if (seen.status != "complete") {
         r.warnings.push_back("This result is partial: " + seen.stopped_by + ".");

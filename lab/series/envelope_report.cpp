@@ -25,18 +25,6 @@ double largest_pressure(const std::vector<StrengthPoint>& points) {
     return most;
 }
 
-report::Curve half_circle(const StrengthPoint& p) {
-    report::Curve c{"", {}, {}, "#8593a1", report::CurveStyle::solid, 1.2};
-    const double centre = 0.5 * (p.sigma_1 + p.sigma_3) / mega;
-    const double radius = 0.5 * std::fabs(p.sigma_1 - p.sigma_3) / mega;
-    for (int k = 0; k <= pieces; ++k) {
-        const double angle = std::numbers::pi * k / pieces;
-        c.x.push_back(centre - radius * std::cos(angle));
-        c.y.push_back(radius * std::sin(angle));
-    }
-    return c;
-}
-
 // Envelope of the circles of sigma_1(sigma_3) with slope d sigma_1 / d sigma_3 (G. Balmer, Proc. ASTM 52 (1952) 1260).
 void add_by_balmer(report::Curve& c, double sigma_3, double deviator, double slope) {
     c.x.push_back((sigma_3 + deviator / (1.0 + slope)) / mega);
@@ -81,6 +69,18 @@ report::Curve strength_curve(const std::string& name, const char* colour, report
 
 } // namespace
 
+report::Curve mohr_circle(const StrengthPoint& p) {
+    report::Curve c{"", {}, {}, "#8593a1", report::CurveStyle::solid, 1.2};
+    const double centre = 0.5 * (p.sigma_1 + p.sigma_3) / mega;
+    const double radius = 0.5 * std::fabs(p.sigma_1 - p.sigma_3) / mega;
+    for (int k = 0; k <= pieces; ++k) {
+        const double angle = std::numbers::pi * k / pieces;
+        c.x.push_back(centre - radius * std::cos(angle));
+        c.y.push_back(radius * std::sin(angle));
+    }
+    return c;
+}
+
 std::vector<report::Scalar> envelope_results(const StrengthEnvelope& e) {
     const auto& mc = e.mohr_coulomb;
     const auto& hb = e.hoek_brown;
@@ -110,7 +110,7 @@ std::vector<report::Scalar> envelope_results(const StrengthEnvelope& e) {
 report::Plot mohr_plot(const StrengthEnvelope& e) {
     report::Plot plot{"Mohr circles at peak stress.", "normal stress [MPa]", "shear stress [MPa]", {}, {}, true};
     for (const auto& p : e.points) {
-        plot.curves.push_back(half_circle(p));
+        plot.curves.push_back(mohr_circle(p));
     }
     if (!plot.curves.empty()) {
         plot.curves.front().name = "circles at peak";

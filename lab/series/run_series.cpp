@@ -121,11 +121,11 @@ Specimens make_ready(const Plan& plan, Board& board) {
     return out;
 }
 
-MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const std::string& command, const RunWatch& watch) {
+MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const RunOptions& options, const RunWatch& watch) {
     MemberResult result;
     result.member = &member;
     try {
-        Finished finished = carry_out(member.deck, std::move(specimen), folder, command, watch);
+        Finished finished = carry_out(member.deck, std::move(specimen), folder, options.command, watch, options.passage);
         result.status = name(finished.status);
         result.stopped_by = finished.record.stopped_by;
         result.results = std::move(finished.record.results);
@@ -144,7 +144,7 @@ MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& f
 
 // Members one after the other by each of the workers, in the order of the decks.
 std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specimens, std::vector<std::unique_ptr<OutputFolder>>& folders,
-                                      const std::string& command, std::size_t threads, Board& board) {
+                                      const RunOptions& options, std::size_t threads, Board& board) {
     const std::size_t n = plan.members.size();
     std::vector<MemberResult> results(n);
     for (std::size_t k = 0; k < n; ++k) {
@@ -157,7 +157,7 @@ std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specime
         omp_set_num_threads(threads_of_worker(worker, workers, threads)); // of this worker's members only
         for (std::size_t k = next++; k < n && !interrupted(); k = next++) {
             const auto show = [&](const std::string& phase, const std::string&, double done) { board.show(k, phase, done); };
-            results[k] = run_member(plan.members[k], *specimens.of[k], *folders[k], command, {show, [](const std::string&) {}});
+            results[k] = run_member(plan.members[k], *specimens.of[k], *folders[k], options, {show, [](const std::string&) {}});
             board.ended(k, results[k]);
         }
     };
@@ -185,9 +185,9 @@ RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, c
     const auto write_manifest = [&](const std::string& status) {
         report::write_json(out.file("manifest.json"), series_manifest(plan, specimens.hashes, options.command, status, started, folder));
     };
-    out.begin();
+    options.passage == Passage::begin ? out.begin() : out.go_on();
     write_manifest("running");
-    auto members = run_members(plan, specimens, folders, options.command, static_cast<std::size_t>(std::max(threads, 1)), board);
+    auto members = run_members(plan, specimens, folders, options, static_cast<std::size_t>(std::max(threads, 1)), board);
 
     SeriesResults results = evaluate(std::move(members), interrupted());
     SeriesExtra extra;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/citation.hpp"
+
 namespace proveta {
 
 namespace {
@@ -156,6 +158,36 @@ std::vector<report::Plot> combined_plots(const SeriesResults& r) {
     return out;
 }
 
+// Of the first group of seeds, with its scatter, or of a strength envelope; else of the tests one by one.
+std::vector<report::KeyFigure> first_figures(const SeriesResults& r) {
+    constexpr std::size_t most = 4;
+    auto out = report::key_figures(r.scalars, {"cohesion", "friction_angle", "sigma_ci", "m_i", "compressive_to_splitting"}, most);
+    const std::vector<std::string> usual{"friction_angle",   "strength",      "splitting_strength",
+                                         "tensile_strength", "young_modulus", "poisson_ratio"};
+    for (const auto& group : r.groups) {
+        for (const auto& name : usual) {
+            const auto at =
+                std::find_if(group.statistics.begin(), group.statistics.end(), [&](const auto& s) { return s.scalar.name == name; });
+            if (at != group.statistics.end() && at->scalar.value && at->sample.spread && out.size() < most) {
+                report::KeyFigure figure = report::key_figure(at->scalar);
+                const Shown shown(at->scalar, {at->sample.mean});
+                figure.note =
+                    fmt::format("{}: mean of {}, +- {:.2g} (95 %)", group.name, at->sample.n, at->sample.spread->half_width * shown.factor);
+                out.push_back(std::move(figure));
+            }
+        }
+    }
+    for (const auto& m : r.members) {
+        for (auto& figure : report::key_figures(m.results, usual, 1)) {
+            if (out.size() < most && r.groups.empty()) {
+                figure.note = m.member->name;
+                out.push_back(std::move(figure));
+            }
+        }
+    }
+    return out;
+}
+
 // Every warning once, with the members that have it.
 std::vector<std::string> warnings_of(const SeriesResults& r) {
     std::vector<std::pair<std::string, std::vector<std::string>>> found;
@@ -251,6 +283,12 @@ report::Record series_record(const Plan& plan, const SeriesResults& r) {
     record.status = r.status;
     record.stopped_by = ending(r);
     record.warnings = warnings_of(r);
+    record.key_figures = first_figures(r);
+    input::Json decks = input::Json::array();
+    for (const auto& m : plan.members) {
+        decks.push_back(resolved(m.deck));
+    }
+    record.citation = citation("Series", plan.title, decks);
     record.overview = {member_table(r)};
     record.results = r.scalars;
     record.plots = combined_plots(r);

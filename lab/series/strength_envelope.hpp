@@ -81,6 +81,9 @@ StrengthEnvelope strength_envelope(std::vector<StrengthPoint> points);
 /// c, phi, sigma_ci, m_i and the tensile strength that follows, with errors and r^2; those that could not be found say why in `formula`.
 std::vector<report::Scalar> envelope_results(const StrengthEnvelope& envelope);
 
+/// Half circle of Mohr of a state of stress, without a name, MPa.
+report::Curve mohr_circle(const StrengthPoint& point);
+
 /// Half circles of Mohr, one a point, with both fits: shear over normal stress, MPa, equal scales.
 report::Plot mohr_plot(const StrengthEnvelope& envelope);
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "lab/citation.hpp"
 #include "lab/sweep/sweep_plots.hpp"
 
 namespace proveta {
@@ -156,6 +157,29 @@ std::vector<std::size_t> by_influence(const std::vector<Sensitivity>& of_result)
     return out;
 }
 
+namespace {
+
+// The points, and of each test's first results the parameter that matters most.
+std::vector<report::KeyFigure> first_figures(const Sweep& sweep, const SweepOutcome& o) {
+    constexpr std::size_t most = 4;
+    const std::size_t n = o.table.trials.size();
+    std::vector<report::KeyFigure> out{
+        {"Points complete", fmt::format("{} of {}", n - o.table.failed(), n), "", fmt::format("of {} parameters", sweep.space.size())}};
+    for (const auto& test : sweep.tests) {
+        for (const auto c : main_results(sweep, o.table, test.name)) {
+            const std::size_t k = by_influence(o.sensitivities[c]).front();
+            const double value = o.sensitivities[c][k].value;
+            if (out.size() < most && std::isfinite(value)) {
+                out.push_back({"Most influence on " + o.table.results[c].name(), sweep.space[k].name, "",
+                               fmt::format("{} {:.2f}", sweep.trajectories() ? "mu* over the largest" : "rank correlation", value)});
+            }
+        }
+    }
+    return out;
+}
+
+} // namespace
+
 report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
     report::Record r;
     const std::size_t n = o.table.trials.size();
@@ -182,6 +206,8 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
     if (!sweep.trajectories() && n - failed < 10) {
         r.warnings.emplace_back("Fewer than ten points: rank correlations say little.");
     }
+    r.key_figures = first_figures(sweep, o);
+    r.citation = citation("Sweep", sweep.input.title, resolved(sweep));
     r.overview = {parameter_table(sweep), test_table(sweep)};
     for (const auto& test : sweep.tests) { // what belongs to a test stands together
         const auto curves = std::find_if(o.curves.begin(), o.curves.end(), [&](const auto& c) { return c.test == test.name; });

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -155,8 +154,7 @@ std::string dataset(std::string heading) {
 } // namespace
 
 void write_hdf5(const Sweep& sweep, const SweepTable& table, const std::string& file) {
-    const std::string partial = file + ".partial";
-    Hdf5File out(partial, Hdf5File::Mode::create);
+    Hdf5File out(file, Hdf5File::Mode::create);
     std::vector<std::string> keys;
     std::vector<std::int32_t> complete;
     std::vector<std::int32_t> quasi_static;
@@ -182,7 +180,6 @@ void write_hdf5(const Sweep& sweep, const SweepTable& table, const std::string& 
         }
     }
     out.close();
-    std::filesystem::rename(partial, file);
 }
 
 std::vector<std::string> unknown_results(const Sweep& sweep, const SweepTable& table) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/model.hpp"
 #include "lab/verification/cases.hpp"
@@ -35,6 +36,7 @@ Model model_of(Bonded b, const Material& m, double dt) {
     numerics.time_step = dt;
     numerics.damping = {0.0, 0.0};
     numerics.refuse_unstable = false;
+    numerics.energy_made = std::numeric_limits<double>::infinity(); // that is what is looked for
     return {std::move(b.spheres), {m}, std::move(b.bonds), std::move(b.weight), {}, numerics};
 }
 

@@ -1,5 +1,8 @@
 #include "reports/record/record.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -34,6 +37,22 @@ Scalar readable(Scalar s) {
         s.unit = "%";
     }
     return s;
+}
+
+KeyFigure key_figure(const Scalar& scalar) {
+    const Scalar r = readable(scalar);
+    return {r.title, r.value ? fmt::format("{:.3g}", *r.value) : "not determined", r.value ? r.unit : "", ""};
+}
+
+std::vector<KeyFigure> key_figures(const std::vector<Scalar>& results, const std::vector<std::string>& names, std::size_t most) {
+    std::vector<KeyFigure> out;
+    for (const auto& name : names) {
+        const auto at = std::find_if(results.begin(), results.end(), [&](const Scalar& s) { return s.name == name && s.value; });
+        if (at != results.end() && out.size() < most) {
+            out.push_back(key_figure(*at));
+        }
+    }
+    return out;
 }
 
 } // namespace proveta::report

@@ -48,8 +48,8 @@ struct Badge {
     std::vector<std::pair<std::string, std::string>> figures; ///< what was found against what is allowed
 };
 
-/// How a curve is drawn.
-enum class CurveStyle { solid, dashed, points };
+/// How a curve is drawn. Bars stand on y = 0 about their x; those of several curves stand side by side.
+enum class CurveStyle { solid, dashed, points, bars };
 
 /// A curve of a plot. Without a name it has no line in the key.
 struct Curve {
@@ -98,6 +98,44 @@ struct Picture {
     std::vector<PictureFacet> facets = {}; ///< drawn first, in their order
 };
 
+/// A drawing as the bytes of a PNG file.
+struct Portrait {
+    std::string title;
+    std::string caption; ///< what the colours mean
+    std::string alt;     ///< in words, for who cannot see it
+    std::string png;
+};
+
+/// Weights of directions, drawn as sectors about a centre.
+struct Rose {
+    struct Part {
+        std::string name;
+        std::string colour;
+        std::vector<double> weight; ///< one a sector, all sectors as wide
+    };
+
+    std::string title;
+    std::string about;          ///< what the angle is
+    double turn = 90.0;         ///< angle that the sectors share, from 0, degrees: 90, 180 or 360
+    std::vector<Part> parts;    ///< stacked from the centre outwards
+    std::vector<double> even;   ///< weights to compare with, drawn as an outline; may be empty
+    std::string even_name = {}; ///< what they are
+};
+
+/// A result that stands at the head of the page, as a large figure.
+struct KeyFigure {
+    std::string label;
+    std::string value;
+    std::string unit = {};
+    std::string note = {}; ///< a few words: how it is found, or between which bounds it lies
+};
+
+/// A result as a key figure, in the unit that people use; "not determined" without a value.
+KeyFigure key_figure(const Scalar& scalar);
+
+/// The first few of the named results that have a value.
+std::vector<KeyFigure> key_figures(const std::vector<Scalar>& results, const std::vector<std::string>& names, std::size_t most = 4);
+
 /// A table of texts with a heading.
 struct TextTable {
     std::string title;
@@ -105,19 +143,32 @@ struct TextTable {
     std::vector<std::string> links = {};        ///< where the first cells of the rows below the heading lead, relative; empty: nowhere
 };
 
-/// Everything that a page shows.
+/// A part of the page below a heading of its own.
+struct Section {
+    std::string title;
+    std::string about; ///< a paragraph
+    std::vector<Plot> plots = {};
+    std::vector<Rose> roses = {};
+    std::vector<TextTable> tables = {};
+};
+
+/// Everything that a page shows, in this order but for the results, which stand below the curves.
 struct Record {
     std::string title;
     std::string subtitle;
     std::string status; ///< complete, interrupted or failed
     std::string stopped_by;
+    std::vector<KeyFigure> key_figures;
     std::vector<TextTable> overview; ///< tables above the curves
     std::vector<Scalar> results;
     std::vector<Badge> badges;
     std::vector<std::string> warnings;
     std::vector<Plot> plots;
+    std::vector<Portrait> portraits;
     std::vector<Picture> pictures;
+    std::vector<Section> sections;
     std::vector<TextTable> tables;
+    std::string citation; ///< how to cite what the page shows
 };
 
 } // namespace proveta::report

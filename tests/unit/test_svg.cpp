@@ -42,6 +42,41 @@ TEST_CASE("svg: a solid curve is a polyline of the usual width, dashed and point
     CHECK(count(to_svg(plot), "<polyline") == 0);
 }
 
+TEST_CASE("svg: every figure says in words what it shows") {
+    report::Plot plot{"a <title>", "strain [%]", "stress [MPa]", {{"platens", {0, 1, 2}, {0, 30, 10}}}, {}};
+    const auto svg = to_svg(plot);
+    CHECK(svg.find("<title>a &lt;title&gt;</title>") != std::string::npos);
+    CHECK(svg.find("platens: from 0 at 0 to 10 at 2, farthest from zero 30 at 1.") != std::string::npos);
+    const report::Rose rose{"r", "about.", 90.0, {{"failed", "#111", {1.0, 3.0}}}, {1.0, 1.0}, "all"};
+    CHECK(to_svg(rose).find("failed: most between 45 and 90 degrees, 75 % of it.") != std::string::npos);
+    CHECK(to_svg(report::Picture{"p", "A cut.", 0.05, 0.1, {}, {}}).find("A cut. 50 mm wide and 100 mm high.") != std::string::npos);
+}
+
+TEST_CASE("svg: curves of one style are told apart by more than their colour") {
+    report::Plot plot{
+        "t", "x", "y", {{"a", {0, 1}, {0, 1}}, {"b", {0, 1}, {0, 2}}, {"c", {0}, {0}, "#111", report::CurveStyle::points}}, {}};
+    CHECK(report::markers_of(plot) == std::vector<int>{0, 1, 0});
+    plot.curves[1].name = "";
+    CHECK(report::markers_of(plot) == std::vector<int>{-1, -1, 0});
+}
+
+TEST_CASE("svg: bars stand on zero, those of two curves side by side") {
+    using report::CurveStyle;
+    report::Plot plot{
+        "t", "x", "y", {{"a", {1, 2}, {3, 4}, "#111", CurveStyle::bars}, {"b", {1, 2}, {1, 0}, "#222", CurveStyle::bars}}, {}};
+    CHECK(count(to_svg(plot, {480, 320, 13, false}), "<rect") == 4);
+}
+
+TEST_CASE("svg: a rose has sectors for its weights, on both sides where a direction has no sense") {
+    report::Rose rose{"r", "", 90.0, {{"a", "#abcdef", {1.0, 0.0, 3.0}}, {"b", "#fedcba", {0.0, 0.0, 1.0}}}, {}};
+    CHECK(count(to_svg(rose), "fill=\"#abcdef\"") == 2);
+    CHECK(count(to_svg(rose), "fill=\"#fedcba\"") == 1);
+    rose.turn = 180.0;
+    CHECK(count(to_svg(rose), "fill=\"#abcdef\"") == 4);
+    rose.parts = {{"a", "#abcdef", {0.0}}};
+    CHECK(to_svg(rose).find("nan") == std::string::npos);
+}
+
 TEST_CASE("svg: curves without a name have no line in the key") {
     report::Plot plot{"t", "x", "y", {{"first", {0, 1}, {0, 1}}, {"", {0, 1}, {0, 2}}, {"last", {0, 1}, {0, 3}}}, {}};
     const auto svg = to_svg(plot);

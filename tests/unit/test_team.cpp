@@ -84,3 +84,23 @@ TEST_CASE("kept rows reach their spheres: loads add up as in one plain loop") {
         CHECK(loads.row(k).force[1] == expected[k]);
     }
 }
+
+TEST_CASE("a team hands on what a part threw, does the other parts, and works on afterwards") {
+    for (const int threads : {1, 3}) {
+        Team team(threads);
+        std::atomic<int> done{0};
+        const auto bad = [&](std::size_t k) {
+            if (k == 5) {
+                throw std::bad_alloc();
+            }
+            done.fetch_add(1);
+        };
+        CHECK_THROWS_AS(team.run(64, bad), std::bad_alloc);
+        if (threads > 1) {
+            CHECK(done.load() == 63);
+        }
+        done.store(0);
+        team.run(64, [&](std::size_t) { done.fetch_add(1); });
+        CHECK(done.load() == 64);
+    }
+}

@@ -8,7 +8,6 @@
 #include "core/averaged_stress.hpp"
 #include "lab/fragments.hpp"
 #include "lab/test_run.hpp"
-#include "specimens/checkpoint.hpp"
 #include "tests/support.hpp"
 
 using namespace proveta;
@@ -110,9 +109,9 @@ TEST_CASE("checkpoint: bonds with moments and an averaged criterion go on bit fo
     };
     press(*whole.model, 2500);
     const auto file = (std::filesystem::temp_directory_path() / ("proveta_moments_" + std::to_string(::getpid()) + ".h5")).string();
-    save_checkpoint(*whole.model, "{}", file);
+    save_model(*whole.model, file);
     Bench second = set_up(deck, specimen);
-    load_checkpoint(*second.model, file);
+    load_model(*second.model, file);
     std::filesystem::remove(file);
     CHECK(whole.model->broken() > 0);
     press(*whole.model, 300);

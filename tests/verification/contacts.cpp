@@ -9,7 +9,6 @@
 #include "core/contacts/hertz_law.hpp"
 #include "core/contacts/restitution.hpp"
 #include "core/contacts/rolling.hpp"
-#include "specimens/checkpoint.hpp"
 #include "tests/support.hpp"
 
 #ifdef _OPENMP
@@ -264,10 +263,10 @@ TEST_CASE("heap: the step bound counts loose contacts, thread counts change no b
     run(m, 3000);
     REQUIRE(m.contacts.rolls);
     const auto file = (std::filesystem::temp_directory_path() / ("proveta_heap_" + std::to_string(::getpid()) + ".h5")).string();
-    save_checkpoint(m, "{}", file);
+    save_model(m, file);
     run(m, 2000);
     Model second = heap(ContactLaw::hertz, 27);
-    load_checkpoint(second, file);
+    load_model(second, file);
     run(second, 2000);
     CHECK(second.state_hash() == m.state_hash());
     CHECK(second.ledger().friction == m.ledger().friction);

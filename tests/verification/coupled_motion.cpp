@@ -6,7 +6,6 @@
 
 #include "core/model.hpp"
 #include "core/solids/solid_shapes.hpp"
-#include "specimens/checkpoint.hpp"
 #include "tests/support.hpp"
 
 using namespace proveta;
@@ -152,10 +151,10 @@ TEST_CASE("coupling: a model with bodies goes on from a checkpoint bit for bit")
         for (const int at : {700, 733}) {
             Model straight = shower(kind, Coupling::area_distributed, law);
             run(straight, at);
-            save_checkpoint(straight, "{}", file);
+            testing::save_model(straight, file);
             run(straight, 700);
             Model resumed = shower(kind, Coupling::area_distributed, law);
-            load_checkpoint(resumed, file);
+            testing::load_model(resumed, file);
             run(resumed, 700);
             CHECK(resumed.dt() == straight.dt());
             CHECK(resumed.stable_step() == straight.stable_step());

@@ -5,7 +5,6 @@
 
 #include "core/boundaries/surface_shapes.hpp"
 #include "core/model.hpp"
-#include "specimens/checkpoint.hpp"
 #include "specimens/random.hpp"
 #include "tests/support.hpp"
 
@@ -165,10 +164,10 @@ TEST_CASE("a model of clusters among surfaces goes on from a checkpoint bit for 
     Model straight = heap();
     straight.walls.surfaces[0].drive = {{0.1, 0, 0}, {0, 0, 1.0}};
     run(straight, 1500);
-    save_checkpoint(straight, "{}", file);
+    testing::save_model(straight, file);
     run(straight, 1500);
     Model resumed = heap();
-    load_checkpoint(resumed, file);
+    testing::load_model(resumed, file);
     resumed.walls.surfaces[0].drive = {{0.1, 0, 0}, {0, 0, 1.0}};
     run(resumed, 1500);
     CHECK(resumed.state_hash() == straight.state_hash());

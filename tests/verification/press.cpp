@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "lab/test_run.hpp"
-#include "specimens/checkpoint.hpp"
 #include "tests/support.hpp"
 
 using namespace proveta;
@@ -139,14 +138,14 @@ TEST_CASE("checkpoint: a restored model goes on bit for bit, across failures") {
     };
     Bench whole = set_up(deck, specimen);
     press(*whole.model, 1500);
-    save_checkpoint(*whole.model, "{}", file);
+    save_model(*whole.model, file);
     const std::size_t broken = whole.model->broken();
     press(*whole.model, 1000);
     CHECK(broken > 0);
     CHECK(whole.model->broken() > broken);
 
     Bench second = set_up(deck, specimen);
-    load_checkpoint(*second.model, file);
+    load_model(*second.model, file);
     CHECK(second.model->broken() == broken);
     press(*second.model, 1000);
     CHECK(second.model->state_hash() == whole.model->state_hash());
@@ -155,7 +154,7 @@ TEST_CASE("checkpoint: a restored model goes on bit for bit, across failures") {
 
     const Deck other = small_deck(900);
     Bench third = set_up(other, make_specimen(other.specimen));
-    CHECK_THROWS(load_checkpoint(*third.model, file));
+    CHECK_THROWS(load_model(*third.model, file));
     std::filesystem::remove(file);
 }
 

@@ -1,0 +1,19 @@
+// Files that are either whole or absent.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace proveta {
+
+/// A file or a folder cannot be written or read, for a reason of the machine's: a full disk, missing rights, a folder that is gone.
+struct FileError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Writes bytes to a file so that neither a reader nor a power cut ever meets half of it: to a file beside it, down to the disk, then under
+/// its name. Throws FileError with the system's reason; nothing is left then but what was there before.
+void write_whole(const std::string& file, const void* data, std::size_t size);
+
+} // namespace proveta

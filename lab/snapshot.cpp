@@ -1,0 +1,158 @@
+#include "lab/snapshot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace proveta {
+
+namespace {
+
+using report::Ball;
+using report::Body;
+using report::Colour;
+using report::Disc;
+using report::View;
+
+const Colour in_tension{0.85f, 0.37f, 0.01f};
+const Colour in_shear{0.12f, 0.35f, 0.75f};
+
+// All moments fit in: where the specimen starts and a little more, so that pieces that fly away do not make it small.
+report::Frame frame_of(const Bench& bench) {
+    const Spheres& s = bench.model->spheres;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 high = -low;
+    for (std::size_t k = 0; k < s.size(); ++k) {
+        low = low.cwiseMin(s.start.at(k) - Vec3::Constant(s.radius[k]));
+        high = high.cwiseMax(s.start.at(k) + Vec3::Constant(s.radius[k]));
+    }
+    const Vec3 more = 0.06 * (high - low);
+    return {low - more, high + more};
+}
+
+template <class ColourOf> std::vector<Ball> balls(const Bench& bench, const Snapshot& at, const ColourOf& colour) {
+    std::vector<Ball> out;
+    for (std::size_t k = 0; k < at.position.size(); ++k) {
+        out.push_back({at.position.at(k), bench.model->spheres.radius[k], colour(k)});
+    }
+    return out;
+}
+
+// Failed bonds as round plates of the bond's area, between where its spheres are now: those in a layer of two grains about the axis, or all
+// of a plate.
+std::vector<Disc> cracks(const Bench& bench, const Snapshot& at) {
+    const Bonds& b = bench.model->bonds;
+    const bool flat = bench.model->spheres.planar;
+    std::vector<Disc> out;
+    for (std::size_t k = 0; k < at.mode.size(); ++k) {
+        if (at.mode[k] == 0) {
+            continue;
+        }
+        const Vec3 from = at.position.at(static_cast<std::size_t>(b.i[k]));
+        const Vec3 to = at.position.at(static_cast<std::size_t>(b.j[k]));
+        const Vec3 along = to - from;
+        const bool near = flat || std::fabs(0.5 * (from.y() + to.y())) < bench.grain;
+        if (along.norm() > 0.0 && near) {
+            out.push_back({0.5 * (from + to), along.normalized(), std::sqrt(b.area[k] / std::numbers::pi),
+                           at.mode[k] == static_cast<std::uint8_t>(FailureMode::tension) ? in_tension : in_shear});
+        }
+    }
+    return out;
+}
+
+double moved(const Bench& bench, const Snapshot& at, std::size_t k) {
+    return (at.position.at(k) - bench.model->spheres.start.at(k)).norm();
+}
+
+// Movement below which 98 % of the spheres are at all moments: single splinters do not decide the colours.
+double common_displacement(const Bench& bench, const std::vector<Snapshot>& moments) {
+    double most = 0.0;
+    for (const auto& at : moments) {
+        std::vector<double> all;
+        for (std::size_t k = 0; k < at.position.size(); ++k) {
+            all.push_back(moved(bench, at, k));
+        }
+        const auto nth = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
+        std::nth_element(all.begin(), nth, all.end());
+        most = std::max(most, *nth);
+    }
+    return most;
+}
+
+std::size_t failed(const Snapshot& at, FailureMode mode) {
+    return static_cast<std::size_t>(std::count(at.mode.begin(), at.mode.end(), static_cast<std::uint8_t>(mode)));
+}
+
+} // namespace
+
+Snapshot snapshot(const Model& m, const std::string& name, const std::string& title) {
+    Snapshot out{name, title, m.spheres.position, std::vector<double>(m.spheres.size(), 0.0), m.bonds.mode};
+    const auto& in = m.bonds.incidence;
+    for (std::size_t k = 0; k < out.damage.size() && m.bonds.size() > 0; ++k) {
+        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
+            out.damage[k] += m.bonds.mode[in.entry[e] >> 1] != 0 ? 1.0 : 0.0;
+        }
+        out.damage[k] /= std::max(1.0, static_cast<double>(in.offset[k + 1] - in.offset[k]));
+    }
+    return out;
+}
+
+void visit_snapshot(const std::string& prefix, Snapshot& s, StateVisitor& visit) {
+    visit(prefix + "name", s.name);
+    visit(prefix + "title", s.title);
+    visit(prefix + "position_x", s.position.x);
+    visit(prefix + "position_y", s.position.y);
+    visit(prefix + "position_z", s.position.z);
+    visit(prefix + "damage", s.damage);
+    visit(prefix + "mode", s.mode);
+}
+
+std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snapshot>& moments, int height) {
+    const report::Frame frame = frame_of(bench);
+    const double most = common_displacement(bench, moments);
+    const bool bonded = bench.model->bonds.size() > 0;
+    const bool flat = bench.model->spheres.planar;
+    const View outside = flat ? View{0.0, 0.0, false} : View{30.0, 12.0, false};
+    const View inside{0.0, 0.0, !flat};
+    std::vector<NamedPortrait> out;
+    const auto add = [&](const Snapshot& at, const std::string& what, const Body& body, const View& view, std::string caption,
+                         std::string alt) {
+        out.push_back(
+            {at.name + "_" + what + ".png",
+             {at.title, std::move(caption), at.title + ": " + std::move(alt), report::to_png(report::render(body, frame, view, height))}});
+    };
+    for (const auto& at : moments) {
+        if (!bonded || &at != &moments.front()) { // nothing has moved at first
+            const auto by_way =
+                balls(bench, at, [&](std::size_t k) { return report::sequential(most > 0.0 ? moved(bench, at, k) / most : 0.0); });
+            add(at, "displacement", {by_way, {}}, outside,
+                fmt::format("Displacement from the start: dark blue 0, yellow {:.3g} mm and more.", 1e3 * most),
+                "the specimen from outside, its spheres coloured by how far they have moved");
+        }
+        if (!bonded) {
+            continue;
+        }
+        const auto by_damage = balls(bench, at, [&](std::size_t k) { return report::damage_colour(at.damage[k]); });
+        const std::size_t n = failed(at, FailureMode::tension) + failed(at, FailureMode::shear);
+        add(at, "cut", {by_damage, {}}, inside, "Damage in a cut through the axis: grey 0, dark red all bonds of a sphere failed.",
+            fmt::format("a cut through the axis, spheres coloured by damage; {} bonds have failed", n));
+        if (n > 0) {
+            add(at, "cracks", {{}, cracks(bench, at)}, {0.0, 0.0, false},
+                fmt::format(
+                    "Failed bonds within a grain of that cut, as discs of their area: orange in tension, blue in shear; of all {} and {}.",
+                    failed(at, FailureMode::tension), failed(at, FailureMode::shear)),
+                fmt::format("the cracks about a cut through the axis; in all {} bonds failed in tension and {} in shear",
+                            failed(at, FailureMode::tension), failed(at, FailureMode::shear)));
+        }
+    }
+    return out;
+}
+
+std::string still(const Bench& bench, const Snapshot& at, int height) {
+    const Body body{balls(bench, at, [&](std::size_t k) { return report::damage_colour(at.damage[k]); }), {}};
+    return report::to_png(report::render(body, frame_of(bench), {0.0, 0.0, !bench.model->spheres.planar}, height));
+}
+
+} // namespace proveta

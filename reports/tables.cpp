@@ -1,0 +1,63 @@
+#include "reports/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "reports/svg.hpp"
+
+namespace proveta::report {
+
+namespace {
+
+// True for a text that is a number and nothing else.
+bool numeric(const std::string& text) {
+    char* end = nullptr;
+    std::strtod(text.c_str(), &end);
+    return !text.empty() && end == text.c_str() + text.size();
+}
+
+std::string framed(const std::string& name, const std::string& kind, const std::string& rows) {
+    return fmt::format("<div class=\"scroll\" role=\"region\" aria-label=\"{0}\"><table "
+                       "class=\"{1}\"><caption><span>{0}</span></caption>\n{2}</table></div>\n",
+                       escape(name), kind, rows);
+}
+
+} // namespace
+
+std::string table(const TextTable& t) {
+    std::string out;
+    for (std::size_t k = 0; k < t.rows.size(); ++k) {
+        out += k == 0 ? "<thead><tr>" : "<tr>";
+        for (std::size_t c = 0; c < t.rows[k].size(); ++c) {
+            const std::string& cell = t.rows[k][c];
+            const std::string link = c == 0 && k > 0 && k <= t.links.size() ? t.links[k - 1] : "";
+            const std::string shown = link.empty() ? escape(cell) : fmt::format("<a href=\"{}\">{}</a>", escape(link), escape(cell));
+            if (k == 0) {
+                const bool over_numbers = c > 0 && t.rows.size() > 1 && c < t.rows[1].size() && numeric(t.rows[1][c]);
+                out += cell.empty() ? "<td></td>" : fmt::format("<th scope=\"col\"{}>{}</th>", over_numbers ? " class=\"num\"" : "", shown);
+            } else if (c == 0) {
+                out += fmt::format("<th scope=\"row\">{}</th>", shown);
+            } else {
+                out += fmt::format("<td{}>{}</td>", numeric(cell) ? " class=\"num\"" : "", shown);
+            }
+        }
+        out += k == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";
+    }
+    return framed(t.title, t.rows.empty() || t.rows.front().size() > 4 ? "wide" : "plain", out + "</tbody>");
+}
+
+std::string table(const std::vector<Scalar>& results) {
+    std::string out = "<thead><tr><th scope=\"col\">Result</th><th scope=\"col\" class=\"num\">Value</th><th scope=\"col\">Unit</th>"
+                      "<th scope=\"col\">How it is found</th></tr></thead><tbody>\n";
+    for (const auto& result : results) {
+        const Scalar r = readable(result);
+        const std::string value =
+            r.value ? fmt::format("<td class=\"num\">{:.5g}</td>", *r.value) : "<td class=\"none\">not determined</td>";
+        out += fmt::format("<tr><th scope=\"row\">{}</th>{}<td class=\"unit\">{}</td><td class=\"how\">{}</td></tr>\n", escape(r.title),
+                           value, r.value ? escape(r.unit) : "", escape(r.formula));
+    }
+    return framed("All results", "results", out + "</tbody>");
+}
+
+} // namespace proveta::report
