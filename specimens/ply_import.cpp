@@ -74,13 +74,7 @@ class Ply {
         const std::size_t end = std::min(text_.find('\n', at_), text_.size());
         const std::string_view whole = std::string_view(text_).substr(at_, end - at_);
         at_ = std::min(end + 1, text_.size());
-        std::vector<std::string_view> words;
-        for (std::size_t from = whole.find_first_not_of(space); from < whole.size();) {
-            const std::size_t to = std::min(whole.find_first_of(space, from), whole.size());
-            words.push_back(whole.substr(from, to - from));
-            from = whole.find_first_not_of(space, to);
-        }
-        return words;
+        return solid_files::words_of(whole);
     }
     [[nodiscard]] Type type_of(std::string_view word) const {
         const auto found = types.find(word);

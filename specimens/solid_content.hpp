@@ -44,6 +44,9 @@ constexpr std::string_view space = " \t\r\n\v\f";
 /// The whole file. Throws std::runtime_error.
 std::string text_of(const std::string& file);
 
+/// What stands between the white space of a line.
+std::vector<std::string_view> words_of(std::string_view line);
+
 /// Text of a file as it can be shown in a message.
 std::string shown(std::string_view text);
 

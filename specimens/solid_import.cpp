@@ -31,6 +31,16 @@ std::string text_of(const std::string& file) {
     return input::read_text(file, largest_file);
 }
 
+std::vector<std::string_view> words_of(std::string_view line) {
+    std::vector<std::string_view> words;
+    for (std::size_t from = line.find_first_not_of(space); from < line.size();) {
+        const std::size_t to = std::min(line.find_first_of(space, from), line.size());
+        words.push_back(line.substr(from, to - from));
+        from = line.find_first_not_of(space, to);
+    }
+    return words;
+}
+
 std::string shown(std::string_view text) {
     std::string out;
     for (const char c : text.substr(0, 40)) {

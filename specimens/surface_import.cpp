@@ -3,23 +3,21 @@
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkIdList.h>
-#include <vtkOBJReader.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
-#include <vtkSTLReader.h>
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "specimens/memory.hpp"
+#include "specimens/obj_import.hpp"
 #include "specimens/ply_import.hpp"
+#include "specimens/stl_import.hpp"
 #include "specimens/vtk_check.hpp"
 #include "specimens/vtk_reading.hpp"
 
@@ -35,34 +33,12 @@ std::string ending(const std::string& file) {
     return out;
 }
 
-template <class Reader> vtk::Read<vtkPolyData> read_with(const std::string& file) {
-    return vtk::read_with<Reader>(file, [&](Reader& reader) { reader.SetFileName(file.c_str()); });
-}
-
-// A binary STL file says how many faces follow; VTK's reader makes room for them.
-void check_stl(const std::string& file) {
-    constexpr std::uintmax_t head = 84;
-    constexpr std::uintmax_t face = 50;
-    const std::uintmax_t size = std::filesystem::file_size(file);
-    std::ifstream in(file, std::ios::binary);
-    std::array<unsigned char, head> bytes{};
-    if (!in.read(reinterpret_cast<char*>(bytes.data()), bytes.size()) ||
-        std::string_view(reinterpret_cast<char*>(bytes.data()), 5) == "solid") {
-        return;
-    }
-    const std::uint32_t announced = bytes[80] | bytes[81] << 8U | bytes[82] << 16U | std::uint32_t{bytes[83]} << 24U;
-    if (announced > (size - head) / face) {
-        throw std::runtime_error(fmt::format("{}: {} faces are announced, which a file of {} bytes cannot hold", file, announced, size));
-    }
-}
-
 vtk::Read<vtkPolyData> read_as(const std::string& type, const std::string& file) {
     if (type == ".stl") {
-        check_stl(file);
-        return read_with<vtkSTLReader>(file);
+        return {read_stl(file), ""};
     }
     if (type == ".obj") {
-        return read_with<vtkOBJReader>(file);
+        return {read_obj(file), ""};
     }
     if (type == ".ply") {
         return {read_ply(file), ""};
@@ -95,7 +71,7 @@ SurfaceMesh mesh_of(vtkPolyData& data, double scale, const std::string& file) {
         double x[3];
         data.GetPoint(k, x);
         const Vec3 v = scale * Vec3(x[0], x[1], x[2]);
-        if (!(v.lpNorm<Eigen::Infinity>() <= farthest)) {
+        if (!(v.array().abs() <= farthest).all()) { // nor what is no number
             throw std::runtime_error(fmt::format("{}: point {} is at {:.4g} {:.4g} {:.4g} m", file, k + 1, v.x(), v.y(), v.z()));
         }
         mesh.vertex.push_back(v);

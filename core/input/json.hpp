@@ -7,6 +7,9 @@
 
 #include "core/input/declare.hpp"
 
+// Compiled once (json_compiled.cpp) and not in each of the many files that see it, of whose time it takes a fifth.
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace proveta::input {
 
 using Json = nlohmann::ordered_json;
