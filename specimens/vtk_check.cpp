@@ -5,7 +5,9 @@
 #include <vtkDataArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "specimens/solid_content.hpp"
@@ -18,6 +20,10 @@ using solid_files::parse;
 using solid_files::shown;
 using solid_files::space;
 using solid_files::text_of;
+
+// What VTK's reader takes for the beginning of a section.
+constexpr std::array<std::string_view, 11> keywords{"POINTS",   "CELLS", "CELL_TYPES", "CELL_DATA",       "POINT_DATA", "FIELD",
+                                                    "VERTICES", "LINES", "POLYGONS",   "TRIANGLE_STRIPS", "METADATA"};
 
 // A legacy file.
 class LegacyCheck {
@@ -45,16 +51,29 @@ class LegacyCheck {
                 fail(fmt::format("cannot be read: DATASET {} is expected in the fourth line and {} was found", dataset, shown(found)));
             }
         }
-        // What belongs to points and cells comes last and is of no use here.
-        for (const std::string_view keyword : {"POINT_DATA", "CELL_DATA"}) {
-            std::size_t from = body_;
-            if (const std::string_view found = find(keyword, from); !found.empty()) {
-                text_.resize(from - found.size());
-            }
-        }
+        data_ = at;
     }
 
-    [[nodiscard]] const std::string& text() const { return text_; }
+    // The file with those sections only: VTK's reader ends the program at a field of data that it does not understand.
+    [[nodiscard]] std::string text(std::initializer_list<std::string_view> wanted) const {
+        std::string out = text_.substr(0, data_) + '\n';
+        bool keep = false;
+        for (std::size_t at = data_, from = data_; from < text_.size();) {
+            const std::string found = upper(word(at));
+            const auto begins = [&](std::string_view keyword) { return found.starts_with(keyword); };
+            const bool end = found.empty();
+            if (end || std::any_of(keywords.begin(), keywords.end(), begins)) {
+                const std::size_t here = end ? text_.size() : at - found.size();
+                out += keep ? text_.substr(from, here - from) : "";
+                from = here;
+                keep = std::find(wanted.begin(), wanted.end(), found) != wanted.end();
+            }
+            if (end) {
+                break;
+            }
+        }
+        return out;
+    }
 
     // Lists of cells: of a section of that name, if it is there. Returns how many.
     std::size_t check_cells(const char* section) const {
@@ -88,20 +107,6 @@ class LegacyCheck {
         if (std::size_t at = body_; find_first("POINTS", at)) {
             (void)count(at);
             refuse_second("POINTS", at);
-        }
-    }
-    // Arrays of other data: "name components tuples type".
-    void check_arrays() const {
-        std::array<std::string_view, 3> last;
-        for (std::size_t at = body_; at < text_.size();) {
-            const std::string_view next = word(at);
-            double components = 0.0;
-            double tuples = 0.0;
-            if (!next.empty() && std::isalpha(static_cast<unsigned char>(next[0])) != 0 && parse(last[1], components) &&
-                parse(last[2], tuples) && components * tuples > static_cast<double>(text_.size())) {
-                fail(fmt::format("{} times {} values are announced, which a file of {} bytes cannot hold", last[1], last[2], text_.size()));
-            }
-            last = {last[1], last[2], next};
         }
     }
 
@@ -212,6 +217,7 @@ class LegacyCheck {
     std::string file_;
     std::string text_;
     std::size_t body_ = 0; // where the third line begins
+    std::size_t data_ = 0; // behind the fourth
     bool lists_ = false;   // before version 5: cells as lists, without offsets
     bool binary_ = false;
 };
@@ -222,8 +228,7 @@ std::string checked_grid(const std::string& file, const CheckType& check) {
     const LegacyCheck legacy(file, "UNSTRUCTURED_GRID");
     legacy.check_points();
     legacy.check_types(legacy.check_cells("CELLS"), check);
-    legacy.check_arrays();
-    return legacy.text();
+    return legacy.text({"POINTS", "CELLS", "CELL_TYPES"});
 }
 
 std::string checked_polygons(const std::string& file) {
@@ -232,8 +237,7 @@ std::string checked_polygons(const std::string& file) {
     for (const char* section : {"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"}) {
         legacy.check_cells(section);
     }
-    legacy.check_arrays();
-    return legacy.text();
+    return legacy.text({"POINTS", "VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"});
 }
 
 void check_cells(vtkCellArray& cells, long long points, const std::string& file) {

@@ -11,7 +11,7 @@ namespace proveta::vtk {
 /// Takes a cell's type and number, and throws for one that is not wanted.
 using CheckType = std::function<void(long long type, std::size_t cell)>;
 
-/// The text of a legacy file of an unstructured grid, without the data of points and cells. Throws std::runtime_error, naming the file, for
+/// The text of a legacy file of an unstructured grid: points, cells and their types only. Throws std::runtime_error, naming the file, for
 /// counts that a file of its size cannot hold and for lists of cells that do not end where they should.
 std::string checked_grid(const std::string& file, const CheckType& check);
 /// The same of polygonal data.
