@@ -62,8 +62,11 @@ class LegacyCheck {
             const std::string found = upper(word(at));
             const auto begins = [&](std::string_view keyword) { return found.starts_with(keyword); };
             const bool end = found.empty();
-            if (end || std::any_of(keywords.begin(), keywords.end(), begins)) {
-                const std::size_t here = end ? text_.size() : at - found.size();
+            const std::size_t here = end ? text_.size() : at - found.size();
+            // Arrays may be called as a section is, but a section begins its line.
+            const std::size_t before = text_.find_last_not_of(" \t", here - 1);
+            const bool first = before == std::string::npos || text_[before] == '\n' || text_[before] == '\r';
+            if (end || (first && std::any_of(keywords.begin(), keywords.end(), begins))) {
                 out += keep ? text_.substr(from, here - from) : "";
                 from = here;
                 keep = std::find(wanted.begin(), wanted.end(), found) != wanted.end();
