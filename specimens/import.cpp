@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -64,6 +65,15 @@ class Lines {
         return x;
     }
 
+    // A number of a node or a group.
+    int whole(const std::string& text) const {
+        const double x = real(text);
+        if (x != std::floor(x) || std::fabs(x) > std::numeric_limits<int>::max()) {
+            fail("\"" + text.substr(0, 40) + "\" is no number of a node or a group");
+        }
+        return static_cast<int>(x);
+    }
+
   private:
     std::string file_;
     std::istringstream in_;
@@ -84,7 +94,7 @@ std::vector<Sphere> read_table(Lines& in) {
         }
         Sphere s{{in.real(f[0]), in.real(f[1]), in.real(f[2])}, in.real(f[3]), 0};
         if (f.size() > 4) {
-            s.group = static_cast<int>(in.real(f[4]));
+            s.group = in.whole(f[4]);
         }
         if (s.radius <= 0.0) {
             in.fail(fmt::format("radius {} is not positive", f[3]));
@@ -94,7 +104,7 @@ std::vector<Sphere> read_table(Lines& in) {
     return out;
 }
 
-std::vector<Sphere> in_order(const std::map<long, Sphere>& by_id, Lines& in) {
+std::vector<Sphere> in_order(const std::map<int, Sphere>& by_id, Lines& in) {
     std::vector<Sphere> out;
     for (const auto& [id, s] : by_id) {
         if (s.radius > 0.0) {
@@ -108,7 +118,7 @@ std::vector<Sphere> in_order(const std::map<long, Sphere>& by_id, Lines& in) {
 }
 
 std::vector<Sphere> read_mdpa(Lines& in) {
-    std::map<long, Sphere> by_id;
+    std::map<int, Sphere> by_id;
     std::string line;
     std::string block;
     while (in.next(line)) {
@@ -121,20 +131,20 @@ std::vector<Sphere> read_mdpa(Lines& in) {
         } else if (f[0] == "End") {
             block.clear();
         } else if (block == "Nodes" && f.size() >= 4) {
-            by_id[static_cast<long>(in.real(f[0]))].centre = {in.real(f[1]), in.real(f[2]), in.real(f[3])};
+            by_id[in.whole(f[0])].centre = {in.real(f[1]), in.real(f[2]), in.real(f[3])};
         } else if ((block == "NodalData RADIUS" || block == "NodalData COHESIVE_GROUP") && f.size() >= 3) {
-            const auto node = by_id.find(static_cast<long>(in.real(f[0])));
+            const auto node = by_id.find(in.whole(f[0]));
             if (node == by_id.end()) {
                 in.fail("node " + f[0] + " was not declared");
             }
-            const double value = in.real(f.back());
             if (block == "NodalData RADIUS") {
+                const double value = in.real(f.back());
                 if (value <= 0.0) {
                     in.fail("radius " + f.back() + " is not positive");
                 }
                 node->second.radius = value;
             } else {
-                node->second.group = static_cast<int>(value);
+                node->second.group = in.whole(f.back());
             }
         }
     }
@@ -142,7 +152,7 @@ std::vector<Sphere> read_mdpa(Lines& in) {
 }
 
 std::vector<Sphere> read_gid(Lines& in) {
-    std::map<long, Sphere> by_id;
+    std::map<int, Sphere> by_id;
     std::string line;
     std::string block;
     bool spheres = false;
@@ -162,12 +172,12 @@ std::vector<Sphere> read_gid(Lines& in) {
         } else if (first == "end") {
             block.clear();
         } else if (block == "coordinates" && f.size() >= 3) {
-            by_id[static_cast<long>(in.real(f[0]))].centre = {in.real(f[1]), in.real(f[2]), f.size() > 3 ? in.real(f[3]) : 0.0};
+            by_id[in.whole(f[0])].centre = {in.real(f[1]), in.real(f[2]), f.size() > 3 ? in.real(f[3]) : 0.0};
         } else if (block == "elements" && spheres) {
             if (f.size() < 3) {
                 in.fail("a sphere element needs number, node and radius");
             }
-            const auto node = by_id.find(static_cast<long>(in.real(f[1])));
+            const auto node = by_id.find(in.whole(f[1]));
             const double radius = in.real(f[2]);
             if (node == by_id.end() || radius <= 0.0) {
                 in.fail("sphere " + f[0] + " has an unknown node or no positive radius");

@@ -132,7 +132,9 @@ void JsonReader::integer(const char* key, std::int64_t& value, std::int64_t low,
         return;
     }
     const double x = j->is_number() ? j->get<double>() : std::nan("");
-    if (!(x == std::floor(x)) || !(x >= static_cast<double>(low)) || !(x <= static_cast<double>(high))) {
+    constexpr double beyond =
+        9223372036854775808.0; // the first that 64 bits do not hold; as a number, the largest that they do is this one too
+    if (!(x == std::floor(x)) || !(x >= static_cast<double>(low)) || !(x <= static_cast<double>(high)) || x >= beyond) {
         complain(frames_.back().path + "/" + key, shown(*j), fmt::format("a whole number from {} to {}", low, high));
         return;
     }

@@ -2,7 +2,7 @@
 # Fuzzes each target (all, or those named) for so many seconds; fails when anything is found, which is then in build/fuzz/found/TARGET.
 #   tests/fuzz/run.sh SECONDS [TARGET...]
 # A finding that is understood goes to tests/fuzz/regressions/TARGET under a name that says what it shows, and its reader is mended.
-# New seeds that are worth keeping are in build/fuzz/corpus/TARGET; `run.sh --merge` puts the fewest that cover as much into tests/fuzz/corpus.
+# What it grows is in build/fuzz/corpus/TARGET; `run.sh --merge [TARGET...]` puts the fewest files that cover as much into build/fuzz/merged.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 here=tests/fuzz
@@ -14,7 +14,7 @@ export OMP_NUM_THREADS=1
 export UBSAN_OPTIONS=print_stacktrace=1
 export LSAN_OPTIONS=suppressions=$PWD/$here/leaks.txt:print_suppressions=0
 
-[ $# -ge 1 ] || { sed -n '2,5s/^# \{0,1\}//p' "$0"; exit 2; }
+[ $# -ge 1 ] || { sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 2; }
 seconds=$1
 shift
 targets=${*:-$all}

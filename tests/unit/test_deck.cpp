@@ -95,6 +95,14 @@ TEST_CASE("the resolved deck reads back as itself") {
     CHECK(once["loading"]["ramp"] == 1e-3);
 }
 
+TEST_CASE("whole numbers end with 64 bits, however they are written") {
+    const auto seed = [](const std::string& text) { return R"({"test": "ucs", "specimen": {"seed": )" + text + "}}"; };
+    CHECK(problems_of(seed("9223372036854774784.0")).empty());
+    for (const char* text : {"9223372036854775808", "9223372036854775808.0", "18446744073709551615", "1e300", "-1"}) {
+        CHECK(has(problems_of(seed(text)), "/specimen/seed"));
+    }
+}
+
 TEST_CASE("settings from the command line change one value") {
     Json json = Json::parse(R"({"test": "ucs"})");
     apply_settings(json, {"loading.rate=0.1", "material.card=concrete_dempack", "output.fields=0"});
