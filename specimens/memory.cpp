@@ -130,7 +130,7 @@ void require_memory(const SpecimenRecipe& r, const std::string& source, const st
     const double stones = particles_of(r.particles, shape_of(r));
     const double each = r.particles.form == "stone" ? static_cast<double>(r.particles.spheres) : 1.0;
     const char* key = r.particles.count.word.empty() ? "/count" : r.particles.size.word.empty() ? "/size" : "/grading";
-    require_memory(static_cast<std::uint64_t>(stones * each), source, path + "/particles" + key,
+    require_memory(static_cast<std::uint64_t>(std::min(stones * each, 1e15)), source, path + "/particles" + key,
                    fmt::format("{:.0f} particles of up to {:.0f} spheres", stones, each));
 }
 

@@ -61,9 +61,9 @@ class LegacyCheck {
         for (std::size_t at = data_, from = data_; from < text_.size();) {
             const std::string found = upper(word(at));
             const auto begins = [&](std::string_view keyword) { return found.starts_with(keyword); };
-            const bool end = found.empty();
+            const bool end = found.empty() || begins("POINT_DATA") || begins("CELL_DATA"); // which come last
             if (end || std::any_of(keywords.begin(), keywords.end(), begins)) {
-                const std::size_t here = end ? text_.size() : at - found.size();
+                const std::size_t here = at - found.size();
                 out += keep ? text_.substr(from, here - from) : "";
                 from = here;
                 keep = std::find(wanted.begin(), wanted.end(), found) != wanted.end();
@@ -94,7 +94,8 @@ class LegacyCheck {
         if (!find_first("CELL_TYPES", at)) {
             return;
         }
-        const auto type = integers(at, count(at), "CELL_TYPES");
+        const std::size_t n = count(at);
+        const auto type = integers(at, n, "CELL_TYPES");
         if (type.size() != cells) {
             fail(fmt::format("{} cells and {} types of cells", cells, type.size()));
         }
