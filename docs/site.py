@@ -80,7 +80,7 @@ def page_of(program, name, deck, pages, work):
     text += ["", "## A run", "", "Every picture and number of this page is of this deck, run when the page was made; specimens of the size that the test",
              "takes by itself give better curves.", "", "```json", json.dumps(full, indent=2), "```", "",
              f"![{y.replace('_', ' ')} over axial strain](pictures/{name}/curve.svg)", ""]
-    text += [f'<img src="pictures/{name}/{file}.png" alt="{alt}" height="300">' for file, alt in shown]
+    text += [f'<img src="pictures/{name}/{file}.png" alt="{alt}" height="260">' for file, alt in shown]
     text += ["", f"It ended because: {summary['stopped_by']}.", "", "| result | value | unit | how it is found |", "|---|---|---|---|"]
     for key, result in summary["results"].items():
         value, unit = value_of(result)

@@ -40,6 +40,15 @@ template <class ColourOf> std::vector<Ball> balls(const Bench& bench, const Snap
     return out;
 }
 
+// A disc that is pressed along its diameter, x: it is looked at along its own axis, with the load upright.
+bool on_its_side(const Bench& bench) { return std::fabs(bench.model->walls.platens.front().face.axis.x()) > 0.5; }
+
+// The cut along the load, from in front of it.
+View in_front(const Bench& bench, bool cut) {
+    const bool through = cut && !bench.model->spheres.planar;
+    return on_its_side(bench) ? View{-90.0, 90.0, through} : View{0.0, 0.0, through};
+}
+
 // Failed bonds as round plates of the bond's area, between where its spheres are now: those in a layer of two grains about the axis, or all
 // of a plate.
 std::vector<Disc> cracks(const Bench& bench, const Snapshot& at) {
@@ -53,7 +62,9 @@ std::vector<Disc> cracks(const Bench& bench, const Snapshot& at) {
         const Vec3 from = at.position.at(static_cast<std::size_t>(b.i[k]));
         const Vec3 to = at.position.at(static_cast<std::size_t>(b.j[k]));
         const Vec3 along = to - from;
-        const bool near = flat || std::fabs(0.5 * (from.y() + to.y())) < bench.grain;
+        const Vec3 middle = 0.5 * (from + to);
+        const bool near =
+            flat || (on_its_side(bench) ? std::fabs(middle.z() - 0.5 * bench.specimen.shape.height) : std::fabs(middle.y())) < bench.grain;
         if (along.norm() > 0.0 && near) {
             out.push_back({0.5 * (from + to), along.normalized(), std::sqrt(b.area[k] / std::numbers::pi),
                            at.mode[k] == static_cast<std::uint8_t>(FailureMode::tension) ? in_tension : in_shear});
@@ -115,7 +126,7 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
     const bool bonded = bench.model->bonds.size() > 0;
     const bool flat = bench.model->spheres.planar;
     const View outside = flat ? View{0.0, 0.0, false} : View{30.0, 12.0, false};
-    const View inside{0.0, 0.0, !flat};
+    const View inside = in_front(bench, true);
     std::vector<NamedPortrait> out;
     const auto add = [&](const Snapshot& at, const std::string& what, const Body& body, const View& view, std::string caption,
                          std::string alt) {
@@ -136,14 +147,14 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
         }
         const auto by_damage = balls(bench, at, [&](std::size_t k) { return report::damage_colour(at.damage[k]); });
         const std::size_t n = failed(at, FailureMode::tension) + failed(at, FailureMode::shear);
-        add(at, "cut", {by_damage, {}}, inside, "Damage in a cut through the axis: grey 0, dark red all bonds of a sphere failed.",
-            fmt::format("a cut through the axis, spheres coloured by damage; {} bonds have failed", n));
+        add(at, "cut", {by_damage, {}}, inside, "Damage in a cut along the load: grey 0, dark red all bonds of a sphere failed.",
+            fmt::format("a cut along the load, spheres coloured by damage; {} bonds have failed", n));
         if (n > 0) {
-            add(at, "cracks", {{}, cracks(bench, at)}, {0.0, 0.0, false},
+            add(at, "cracks", {{}, cracks(bench, at)}, in_front(bench, false),
                 fmt::format(
                     "Failed bonds within a grain of that cut, as discs of their area: orange in tension, blue in shear; of all {} and {}.",
                     failed(at, FailureMode::tension), failed(at, FailureMode::shear)),
-                fmt::format("the cracks about a cut through the axis; in all {} bonds failed in tension and {} in shear",
+                fmt::format("the cracks about a cut along the load; in all {} bonds failed in tension and {} in shear",
                             failed(at, FailureMode::tension), failed(at, FailureMode::shear)));
         }
     }
@@ -152,7 +163,7 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
 
 std::string still(const Bench& bench, const Snapshot& at, int height) {
     const Body body{balls(bench, at, [&](std::size_t k) { return report::damage_colour(at.damage[k]); }), {}};
-    return report::to_png(report::render(body, frame_of(bench), {0.0, 0.0, !bench.model->spheres.planar}, height));
+    return report::to_png(report::render(body, frame_of(bench), in_front(bench, true), height));
 }
 
 } // namespace proveta

@@ -29,7 +29,7 @@ struct NamedPortrait {
     report::Portrait portrait;
 };
 
-/// The views of a test: displacement and damage on the surface, damage in a cut through the axis, the cracks about that cut as coloured discs. The colours of
+/// The views of a test: displacement and damage on the surface, damage in a cut along the load, the cracks about that cut as coloured discs. The colours of
 /// a quantity mean the same at all moments. height: of a picture in pixels.
 std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snapshot>& moments, int height);
 

@@ -108,7 +108,8 @@ std::uint64_t memory_needed(std::uint64_t spheres, double coordination) {
     constexpr double program = 40e6;
     constexpr double of_sphere = 1800.0;
     constexpr double of_bond = 350.0;
-    return static_cast<std::uint64_t>(program + static_cast<double>(spheres) * (of_sphere + of_bond * 0.5 * coordination));
+    constexpr double most = 1e19; // that the number of bytes can be
+    return static_cast<std::uint64_t>(std::min(most, program + static_cast<double>(spheres) * (of_sphere + of_bond * 0.5 * coordination)));
 }
 
 void require_memory(std::uint64_t spheres, const std::string& source, const std::string& path, const std::string& found) {

@@ -54,14 +54,15 @@ class LegacyCheck {
         data_ = at;
     }
 
-    // The file with those sections only: VTK's reader ends the program at a field of data that it does not understand.
+    // The file with those sections only: VTK's reader ends the program at a field of data that it does not understand, wherever in a line
+    // it begins. Data of points and cells come last and may be called like a section.
     [[nodiscard]] std::string text(std::initializer_list<std::string_view> wanted) const {
         std::string out = text_.substr(0, data_) + '\n';
         bool keep = false;
         for (std::size_t at = data_, from = data_; from < text_.size();) {
             const std::string found = upper(word(at));
             const auto begins = [&](std::string_view keyword) { return found.starts_with(keyword); };
-            const bool end = found.empty() || begins("POINT_DATA") || begins("CELL_DATA"); // which come last
+            const bool end = found.empty() || begins("POINT_DATA") || begins("CELL_DATA");
             if (end || std::any_of(keywords.begin(), keywords.end(), begins)) {
                 const std::size_t here = at - found.size();
                 out += keep ? text_.substr(from, here - from) : "";

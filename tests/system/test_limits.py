@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """The program from outside: input without end, files that are larger than they look, tests that need more memory than there is."""
+import json
 import os
+import pathlib
 import resource
 import threading
 
@@ -8,7 +10,7 @@ import case
 from case import Case, main
 
 HUGE = 10 << 30  # bytes, of which a sparse file takes none
-MOST = 400 << 20  # bytes that the program may take to refuse any of this
+MOST = 1 << 30  # bytes that the program may take to refuse any of this; the most is a deck of 16 MiB whose every word is wrong
 
 
 class Limits(Case):
@@ -30,7 +32,8 @@ class Limits(Case):
         return path
 
     def scene(self, **changes):
-        return self.deck({"scene": "a test", "stop": {"time": 0.1}, **changes}, "scene.json")
+        whole = json.loads((pathlib.Path(__file__).resolve().parents[2] / "examples" / "silo.json").read_text())
+        return self.deck({**whole, **changes}, "scene.json")
 
     def test_decks_without_end(self):
         self.refused("check", self.sparse("deck.json", b'{"test": "'), says="more than 16 MiB")
@@ -38,13 +41,13 @@ class Limits(Case):
         read, write = os.pipe()
 
         def feed():
-            with open(write, "wb") as f:
-                try:
+            try:
+                with open(write, "wb") as f:
                     f.write(b'{"title": "')
                     while True:
                         f.write(b"a" * 65536)
-                except BrokenPipeError:
-                    pass
+            except BrokenPipeError:
+                pass
 
         feeder = threading.Thread(target=feed)
         feeder.start()
@@ -82,7 +85,7 @@ class Limits(Case):
     def test_curves(self):
         for curve in (self.sparse("curve.csv"), "/dev/zero"):
             content = {"tests": [{"name": "u", "deck": case.SMALL}], "parameters": [{"path": "material.tau_f", "low": 1e7, "high": 2e7}],
-                       "targets": [{"test": "u", "curve": str(curve)}]}
+                       "targets": [{"test": "u", "curve": str(curve), "y": "total_stress"}]}
             self.refused("calibrate", self.deck(content, "calibration.json"), "--out", "out", says="more than 64 MiB")
 
     def test_tests_that_need_more_memory_than_there_is(self):

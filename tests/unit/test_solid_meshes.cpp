@@ -89,7 +89,7 @@ std::string message(const std::string& file) {
 }
 
 bool has(const std::string& text, const std::string& part) {
-    INFO(text);
+    INFO("\"" << text << "\" lacks \"" << part << "\"");
     CHECK(text.find(part) != std::string::npos);
     return text.find(part) != std::string::npos;
 }
