@@ -50,7 +50,7 @@ vtkSmartPointer<vtkPolyData> read_obj(const std::string& file) {
         throw std::runtime_error(fmt::format("{}:{}: {}", file, line, what));
     };
     for (std::size_t k = 0; k < lines.size(); ++k) {
-        const auto words = solid_files::words_of(lines[k]);
+        const auto words = solid_files::words_of(std::string_view(lines[k]).substr(0, lines[k].find('#')));
         if (words.empty() || (words[0] != "v" && words[0] != "f")) {
             continue;
         }

@@ -54,19 +54,17 @@ class LegacyCheck {
         data_ = at;
     }
 
-    // The file with those sections only: VTK's reader ends the program at a field of data that it does not understand.
+    // The file with those sections only: VTK's reader ends the program at a field of data that it does not understand, wherever in a line
+    // it begins. Data of points and cells come last and may be called like a section.
     [[nodiscard]] std::string text(std::initializer_list<std::string_view> wanted) const {
         std::string out = text_.substr(0, data_) + '\n';
         bool keep = false;
         for (std::size_t at = data_, from = data_; from < text_.size();) {
             const std::string found = upper(word(at));
             const auto begins = [&](std::string_view keyword) { return found.starts_with(keyword); };
-            const bool end = found.empty();
-            const std::size_t here = end ? text_.size() : at - found.size();
-            // Arrays may be called as a section is, but a section begins its line.
-            const std::size_t before = text_.find_last_not_of(" \t", here - 1);
-            const bool first = before == std::string::npos || text_[before] == '\n' || text_[before] == '\r';
-            if (end || (first && std::any_of(keywords.begin(), keywords.end(), begins))) {
+            const bool end = found.empty() || begins("POINT_DATA") || begins("CELL_DATA");
+            if (end || std::any_of(keywords.begin(), keywords.end(), begins)) {
+                const std::size_t here = at - found.size();
                 out += keep ? text_.substr(from, here - from) : "";
                 from = here;
                 keep = std::find(wanted.begin(), wanted.end(), found) != wanted.end();
@@ -97,7 +95,8 @@ class LegacyCheck {
         if (!find_first("CELL_TYPES", at)) {
             return;
         }
-        const auto type = integers(at, count(at), "CELL_TYPES");
+        const std::size_t n = count(at);
+        const auto type = integers(at, n, "CELL_TYPES");
         if (type.size() != cells) {
             fail(fmt::format("{} cells and {} types of cells", cells, type.size()));
         }

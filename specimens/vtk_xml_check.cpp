@@ -53,9 +53,9 @@ class XmlCheck {
             const std::string_view format = attribute(tag, "format");
             std::size_t offset = 0;
             if (format == "binary") {
-                check_sizes(all_.find_first_not_of(space, at + tag.size()), false);
+                check_sizes(all_.find_first_not_of(space, at + tag.size()), false, word_of(tag));
             } else if (format == "appended" && parse(attribute(tag, "offset"), offset) && data != std::string_view::npos) {
-                check_sizes(offset < all_.size() - data ? data + 1 + offset : all_.size(), raw);
+                check_sizes(offset < all_.size() - data ? data + 1 + offset : all_.size(), raw, word_of(tag));
             }
         }
     }
@@ -108,6 +108,12 @@ class XmlCheck {
                    : quoted(static_cast<std::size_t>(tag.data() - all_.data()) + at + name.size()).value_or(std::string_view());
     }
 
+    // Bytes of an array's values, which end their type's name in bits.
+    [[nodiscard]] double word_of(std::string_view tag) const {
+        const std::string_view type = attribute(tag, "type");
+        return type.ends_with("64") ? 8.0 : type.ends_with("32") ? 4.0 : type.ends_with("16") ? 2.0 : 1.0;
+    }
+
     // Byte of what begins at `at`; none beyond the end, or where base64 ends.
     [[nodiscard]] std::optional<unsigned> byte(std::size_t at, std::size_t k, bool raw) const {
         if (raw) {
@@ -138,13 +144,16 @@ class XmlCheck {
     }
     // Of an array: its bytes; or blocks, their size, that of the last one, and what they are compressed to. What is not there the reader
     // will miss.
-    void check_sizes(std::size_t at, bool raw) const {
+    void check_sizes(std::size_t at, bool raw, double word_size) const {
         const auto first = word(at, 0, raw);
         if (first.value_or(0.0) > size()) {
             fail(fmt::format("{:.0f} bytes or blocks are announced, which a file of {} bytes cannot hold", *first, all_.size()));
         }
         if (!compressed_ || !first) {
             return;
+        }
+        if (const auto block = word(at, 1, raw); *first > 0.0 && block && *block < word_size) { // by which the reader divides
+            fail(fmt::format("blocks of {:.0f} bytes are announced, less than a value takes", *block));
         }
         for (const std::size_t k : {1U, 2U}) {
             if (const double block = word(at, k, raw).value_or(0.0); *first * block > densest * size()) {
