@@ -18,24 +18,20 @@ using input::Json;
 
 namespace {
 
-std::string text_of(const Json& json, const char* key) {
-    return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
-}
-
 StoredResult read_result(const std::string& folder, const std::string& name, const Json& manifest) {
     StoredResult out;
     out.name = name;
     out.folder = folder;
-    out.test = manifest.contains("deck") ? text_of(manifest["deck"], "test") : "";
+    out.test = manifest.contains("deck") ? input::text_at(manifest["deck"], "test") : "";
     const Json summary = input::load_json((fs::path(folder) / "summary.json").string());
-    out.status = text_of(summary, "status");
+    out.status = input::text_at(summary, "status");
     if (summary.contains("results") && summary["results"].is_object()) {
         for (const auto& [key, found] : summary["results"].items()) {
             std::optional<double> value;
             if (found.is_object() && found.contains("value") && found["value"].is_number()) {
                 value = found["value"].get<double>();
             }
-            out.results.push_back({key, key, value, text_of(found, "unit"), text_of(found, "formula")});
+            out.results.push_back({key, key, value, input::text_at(found, "unit"), input::text_at(found, "formula")});
         }
     }
     out.curve = read_csv((fs::path(folder) / "curve.csv").string());
@@ -84,8 +80,6 @@ const report::Table* table_with(const StoredResult& test, const std::string& nam
     return nullptr;
 }
 
-const char* const palette[] = {"#1f4e79", "#b9770e", "#1e7b46", "#b03a2e", "#7d3c98", "#148f9c", "#6e5a3b", "#444b54"};
-
 // Names of results in the order of the first test that has each.
 std::vector<std::string> result_names(const std::vector<StoredResult>& tests) {
     std::vector<std::string> names;
@@ -125,7 +119,7 @@ std::vector<StoredResult> read_results(const std::vector<std::string>& folders) 
             const Json manifest = input::load_json((path / "manifest.json").string());
             if (manifest.contains("proveta_series_manifest") && manifest.contains("members") && manifest["members"].is_array()) {
                 for (const auto& member : manifest["members"]) {
-                    const std::string of = text_of(member, "name");
+                    const std::string of = input::text_at(member, "name");
                     if (!of.empty() && of == fs::path(of).filename()) {
                         one((path / of).string(), name + "/" + of, member);
                     }
@@ -236,8 +230,8 @@ report::Plot overlay(const std::vector<StoredResult>& tests, const std::string& 
         if (tables[0] == nullptr || tables[1] == nullptr) {
             continue;
         }
-        report::Curve curve{tests[k].name, tables[0]->values(names[0]), tables[1]->values(names[1]), palette[k % std::size(palette)]};
-        curve.style = k / std::size(palette) % 2 == 0 ? report::CurveStyle::solid : report::CurveStyle::dashed;
+        report::Curve curve{tests[k].name, tables[0]->values(names[0]), tables[1]->values(names[1])};
+        report::tell_apart(curve, k);
         const Shown along = shown(names[0]);
         const Shown up = shown(names[1]);
         for (auto& value : curve.x) {

@@ -38,9 +38,7 @@ report::Rose rose_of(const std::vector<CrackFacet>& facets, double turn, std::si
 
 // Mass without what mass scaling adds, kg.
 double true_mass(const Model& m, std::size_t k) {
-    const double r = m.spheres.radius[k];
-    const double volume = m.spheres.planar ? std::numbers::pi * r * r : 4.0 / 3.0 * std::numbers::pi * r * r * r;
-    return volume * m.materials[static_cast<std::size_t>(m.spheres.material[k])].density;
+    return m.spheres.volume(k) * m.materials[static_cast<std::size_t>(m.spheres.material[k])].density;
 }
 
 } // namespace

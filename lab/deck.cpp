@@ -106,7 +106,7 @@ Deck read_deck(const Json& given, const std::string& file) {
         problems.push_back({file, "/test", "no test", fmt::format("one of {}", fmt::join(test_names(), ", ")),
                             "the smallest complete deck is { \"test\": \"ucs\" }"});
     }
-    const std::string test = json.is_object() && json.contains("test") && json["test"].is_string() ? json["test"].get<std::string>() : "";
+    const std::string test = input::text_at(json, "test");
     deck.protocol = make_protocol(test);
     if (!deck.protocol) {
         deck.protocol = make_protocol(test_names().front()); // to read the rest; the name itself is complained about below

@@ -13,27 +13,33 @@ namespace proveta {
 
 namespace {
 
-// Love-Weber stress of each sphere over its share of the volume, compression positive, and the share of its bonds that failed.
-void sphere_states(const Bench& bench, std::vector<double>& stress, std::vector<double>& damage) {
+// Love-Weber stress of each sphere over its share of the volume, compression positive.
+std::vector<double> stress_of(const Bench& bench) {
     const Model& m = *bench.model;
-    const std::size_t n = m.spheres.size();
-    std::vector<double> volume(n);
-    damage.assign(n, 0.0);
-    for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> volume(m.spheres.size());
+    for (std::size_t k = 0; k < volume.size(); ++k) {
         volume[k] = m.spheres.volume(k) / (1.0 - bench.statistics.porosity);
-        const auto& in = m.bonds.incidence;
-        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
-            damage[k] += m.bonds.mode[in.entry[e] >> 1] != 0 ? 1.0 : 0.0;
-        }
-        damage[k] /= std::max(1.0, static_cast<double>(in.offset[k + 1] - in.offset[k]));
     }
-    stress.clear();
+    std::vector<double> stress;
     for (const Mat3& t : sphere_stresses(m.spheres, m.bonds, m.contacts, m.walls, m.pressures, volume)) {
         stress.insert(stress.end(), {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)});
     }
+    return stress;
 }
 
 } // namespace
+
+std::vector<double> damage_of(const Model& m, const std::vector<std::uint8_t>& mode) {
+    std::vector<double> damage(m.spheres.size(), 0.0);
+    const auto& in = m.bonds.incidence;
+    for (std::size_t k = 0; k < damage.size(); ++k) {
+        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
+            damage[k] += mode[in.entry[e] >> 1] != 0 ? 1.0 : 0.0;
+        }
+        damage[k] /= std::max(1.0, static_cast<double>(in.offset[k + 1] - in.offset[k]));
+    }
+    return damage;
+}
 
 report::Geometry sphere_fields(const Bench& bench) {
     const Model& m = *bench.model;
@@ -43,14 +49,11 @@ report::Geometry sphere_fields(const Bench& bench) {
     for (std::size_t k = 0; k < moved.size(); ++k) {
         moved.set(k, m.spheres.position.at(k) - m.spheres.start.at(k));
     }
-    std::vector<double> stress;
-    std::vector<double> damage;
-    sphere_states(bench, stress, damage);
     g.point_arrays = {{"radius", 1, m.spheres.radius},
                       {"displacement", 3, report::interleaved(moved)},
                       {"velocity", 3, report::interleaved(m.spheres.velocity)},
-                      {"stress", 6, stress},
-                      {"damage", 1, damage},
+                      {"stress", 6, stress_of(bench)},
+                      {"damage", 1, damage_of(m, m.bonds.mode)},
                       {"fragment", 1, report::as_numbers(fragments(m))},
                       {"group", 1, report::as_numbers(m.spheres.group)},
                       {"material", 1, report::as_numbers(m.spheres.material)}};

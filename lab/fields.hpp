@@ -13,6 +13,8 @@ namespace proveta {
 /// Spheres with radius, displacement, velocity, Love-Weber stress (compression positive: xx, yy, zz, xy, yz, zx), damage (share of its
 /// bonds that failed), fragment, group and material. The model's last step must have measured.
 report::Geometry sphere_fields(const Bench& bench);
+/// Of each sphere the share of its bonds that have failed. mode: of the bonds, as `Bonds::mode` is or was.
+std::vector<double> damage_of(const Model& model, const std::vector<std::uint8_t>& mode);
 /// Bonds as lines with mode (0 intact, 1 tension, 2 shear), damage, failure criterion state, normal (compression positive) and shear force.
 report::Geometry bond_fields(const Bench& bench);
 /// The deformable bodies' skins as polygons, with displacement and velocity of the nodes and, of membranes, the largest true stress.

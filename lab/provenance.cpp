@@ -30,6 +30,14 @@ std::string now_utc() {
 
 std::string hex(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
+std::string hash_of_text(const std::string& text) {
+    Hash hash;
+    for (const unsigned char c : text) {
+        hash.mix(static_cast<std::uint64_t>(c));
+    }
+    return hex(hash.value());
+}
+
 std::string hash_of_file(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     if (!in || !std::filesystem::is_regular_file(file)) {
@@ -60,10 +68,6 @@ input::Json input_files(const Deck& deck) {
         }
     }
     return files;
-}
-
-std::string text_in(const input::Json& json, const char* key) {
-    return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
 } // namespace
@@ -108,7 +112,7 @@ input::Json manifest_to_go_on_with(const std::string& file, const input::Json& f
 std::vector<std::string> changes_since(const input::Json& manifest) {
     std::vector<std::string> out;
     const auto compare = [&](const char* key, const std::string& now, const char* consequence) {
-        if (const std::string then = text_in(manifest, key); !then.empty() && then != now) {
+        if (const std::string then = input::text_at(manifest, key); !then.empty() && then != now) {
             out.push_back(fmt::format("{} was \"{}\" and is \"{}\" now: {}", key, then, now, consequence));
         }
     };

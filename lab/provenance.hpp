@@ -21,6 +21,9 @@ std::string now_utc();
 /// A 64-bit hash as 16 hexadecimal digits.
 std::string hex(std::uint64_t hash);
 
+/// Hash of a text as 16 hexadecimal digits. It names trials and their folders: another one would not find them again.
+std::string hash_of_text(const std::string& text);
+
 /// Hash of a file's bytes as 16 hexadecimal digits; empty when it cannot be read.
 std::string hash_of_file(const std::string& file);
 

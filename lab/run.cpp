@@ -9,7 +9,6 @@
 #include <iterator>
 
 #include "core/files/whole_file.hpp"
-#include "core/hash.hpp"
 #include "lab/fields.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
@@ -154,12 +153,7 @@ class Keeper {
 };
 
 // Which test a checkpoint is of: deck and specimen, to the bit.
-std::string owner_of(const Deck& deck, const Bench& bench) {
-    Hash hash;
-    const std::string text = resolved(deck).dump();
-    hash.mix(text.data(), text.size());
-    return hex(hash.value()) + " " + hex(bench.specimen_hash);
-}
+std::string owner_of(const Deck& deck, const Bench& bench) { return hash_of_text(resolved(deck).dump()) + " " + hex(bench.specimen_hash); }
 
 void log_set_up(const Bench& bench, double seconds, const RunWatch& watch) {
     const std::string matter =

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lab/fields.hpp"
+
 namespace proveta {
 
 namespace {
@@ -40,8 +42,13 @@ template <class ColourOf> std::vector<Ball> balls(const Bench& bench, const Snap
     return out;
 }
 
+std::vector<Ball> balls_by_damage(const Bench& bench, const Snapshot& at) {
+    const auto damage = damage_of(*bench.model, at.mode);
+    return balls(bench, at, [&](std::size_t k) { return report::damage_colour(damage[k]); });
+}
+
 // A disc that is pressed along its diameter, x: it is looked at along its own axis, with the load upright.
-bool on_its_side(const Bench& bench) { return std::fabs(bench.model->walls.platens.front().face.axis.x()) > 0.5; }
+bool on_its_side(const Bench& bench) { return !bench.press.bands; }
 
 // The cut along the load, from in front of it.
 View in_front(const Bench& bench, bool cut) {
@@ -99,15 +106,7 @@ std::size_t failed(const Snapshot& at, FailureMode mode) {
 } // namespace
 
 Snapshot snapshot(const Model& m, const std::string& name, const std::string& title) {
-    Snapshot out{name, title, m.spheres.position, std::vector<double>(m.spheres.size(), 0.0), m.bonds.mode};
-    const auto& in = m.bonds.incidence;
-    for (std::size_t k = 0; k < out.damage.size() && m.bonds.size() > 0; ++k) {
-        for (auto e = in.offset[k]; e < in.offset[k + 1]; ++e) {
-            out.damage[k] += m.bonds.mode[in.entry[e] >> 1] != 0 ? 1.0 : 0.0;
-        }
-        out.damage[k] /= std::max(1.0, static_cast<double>(in.offset[k + 1] - in.offset[k]));
-    }
-    return out;
+    return {name, title, m.spheres.position, m.bonds.mode};
 }
 
 void visit_snapshot(const std::string& prefix, Snapshot& s, StateVisitor& visit) {
@@ -116,7 +115,6 @@ void visit_snapshot(const std::string& prefix, Snapshot& s, StateVisitor& visit)
     visit(prefix + "position_x", s.position.x);
     visit(prefix + "position_y", s.position.y);
     visit(prefix + "position_z", s.position.z);
-    visit(prefix + "damage", s.damage);
     visit(prefix + "mode", s.mode);
 }
 
@@ -145,7 +143,7 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
         if (!bonded) {
             continue;
         }
-        const auto by_damage = balls(bench, at, [&](std::size_t k) { return report::damage_colour(at.damage[k]); });
+        const auto by_damage = balls_by_damage(bench, at);
         const std::size_t n = failed(at, FailureMode::tension) + failed(at, FailureMode::shear);
         add(at, "cut", {by_damage, {}}, inside, "Damage in a cut along the load: grey 0, dark red all bonds of a sphere failed.",
             fmt::format("a cut along the load, spheres coloured by damage; {} bonds have failed", n));
@@ -162,8 +160,7 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
 }
 
 std::string still(const Bench& bench, const Snapshot& at, int height) {
-    const Body body{balls(bench, at, [&](std::size_t k) { return report::damage_colour(at.damage[k]); }), {}};
-    return report::to_png(report::render(body, frame_of(bench), in_front(bench, true), height));
+    return report::to_png(report::render({balls_by_damage(bench, at), {}}, frame_of(bench), in_front(bench, true), height));
 }
 
 } // namespace proveta

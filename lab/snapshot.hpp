@@ -11,10 +11,9 @@ namespace proveta {
 
 /// Places and cracks of a specimen at a moment.
 struct Snapshot {
-    std::string name;  ///< of files: "intact", "peak", "after"
+    std::string name;  ///< of files: "intact", "peak", "past_peak", "end"
     std::string title; ///< "At the peak, strain 0.19 %"
     VectorField position;
-    std::vector<double> damage;     ///< of each sphere: share of its bonds that have failed
     std::vector<std::uint8_t> mode; ///< of each bond, as `Bonds::mode`
 };
 
@@ -29,11 +28,11 @@ struct NamedPortrait {
     report::Portrait portrait;
 };
 
-/// The views of a test: displacement and damage on the surface, damage in a cut along the load, the cracks about that cut as coloured discs. The colours of
-/// a quantity mean the same at all moments. height: of a picture in pixels.
+/// The views of a test: displacement from outside, damage in a cut along the load, the cracks about that cut as coloured discs. The colours
+/// of a quantity mean the same at all moments. height: of a picture in pixels.
 std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snapshot>& moments, int height);
 
-/// A still of a specimen for an animation: the cut through the axis, coloured by damage, cracks in front of it.
+/// A still of a specimen for an animation: the cut along the load, coloured by damage.
 std::string still(const Bench& bench, const Snapshot& moment, int height);
 
 } // namespace proveta

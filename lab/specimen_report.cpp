@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lab/crack_report.hpp"
 #include "specimens/grading.hpp"
 
 namespace proveta {
@@ -127,10 +128,8 @@ report::Rose fabric_rose(const Model& m) {
     rose.about = "Angle to the axis z, by number. An isotropic specimen fills the outline.";
     rose.parts = {{"bonds", "#1f4e79", std::vector<double>(sectors, 0.0)}};
     rose.even_name = "isotropic";
-    for (std::size_t b = 0; b < m.bonds.size(); ++b) {
-        const Vec3 to =
-            m.spheres.start.at(static_cast<std::size_t>(m.bonds.j[b])) - m.spheres.start.at(static_cast<std::size_t>(m.bonds.i[b]));
-        const double angle = degrees * std::acos(std::min(1.0, std::fabs(to.z()) / to.norm()));
+    for (const auto& facet : crack_facets(m)) {
+        const double angle = degrees * std::acos(std::min(1.0, std::fabs(facet.normal.z())));
         rose.parts[0].weight[std::min(sectors - 1, static_cast<std::size_t>(angle / 90.0 * sectors))] += 1.0;
     }
     for (std::size_t k = 0; k < sectors; ++k) {

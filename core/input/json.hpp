@@ -36,6 +36,9 @@ struct InputError : std::runtime_error {
 /// Parses a file. Throws InputError when it is missing, unreadable, empty, too large or not JSON; the message names line and column.
 Json load_json(const std::string& file);
 
+/// The text that an object has under a key; empty when it has none, or when it is no object.
+std::string text_at(const Json& json, const char* key);
+
 /// Sets `value` from the JSON object `json` and appends everything wrong with it to `problems`: wrong types, units, values out of bounds,
 /// unknown keys. Keys that are absent keep their value. path is the object's own JSON pointer.
 template <class T> void read(const Json& json, T& value, const std::string& source, const std::string& path, Problems& problems);

@@ -88,4 +88,8 @@ Json load_json(const std::string& file) {
     return json;
 }
 
+std::string text_at(const Json& json, const char* key) {
+    return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
+
 } // namespace proveta::input

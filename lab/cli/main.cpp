@@ -87,8 +87,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", proveta::version_text());
     app.require_subcommand(1);
     app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the calculation failed, 4 files cannot be written, 130 or 143 interrupted by "
-               "Ctrl-C or "
-               "SIGTERM.");
+               "Ctrl-C or SIGTERM.");
     proveta::Command chosen;
     proveta::add_run(app, typed, chosen);
     proveta::add_resume(app, typed, chosen);

@@ -31,7 +31,7 @@ struct ResumeArguments {
 // A test or a series, from the checkpoints of its folders.
 int go_on_with_tests(const ResumeArguments& a, const std::string& typed, const input::Json& manifest, Passage passage) {
     const std::string file = (fs::path(a.folder) / "manifest.json").string();
-    const std::string status = manifest.contains("status") && manifest["status"].is_string() ? manifest["status"].get<std::string>() : "";
+    const std::string status = input::text_at(manifest, "status");
     if (status == "complete" && passage == Passage::go_on) {
         fmt::print("{} is complete: there is nothing to go on with\n", a.folder);
         return 0;
@@ -63,7 +63,7 @@ int pass_through(const ResumeArguments& a, const std::string& typed, Passage pas
     trials.threads = a.threads;
     trials.quiet = a.quiet;
     const bool trialled = manifest.contains("proveta_sweep_manifest") || manifest.contains("proveta_calibration_manifest");
-    if (trialled && passage == Passage::report && (!manifest.contains("status") || manifest["status"] != "complete")) {
+    if (trialled && passage == Passage::report && input::text_at(manifest, "status") != "complete") {
         refuse(a.folder, "one that has not ended", "a sweep or a calibration that is complete", "proveta resume goes on with it");
     }
     if (manifest.contains("proveta_sweep_manifest")) {

@@ -25,10 +25,6 @@ struct Candidate {
     std::string expected_specimen;
 };
 
-std::string text_at(const Json& json, const char* key) {
-    return json.is_object() && json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
-}
-
 // Members of a series' manifest. Their names become folders, so that they must be names and not paths.
 std::vector<Candidate> members_of(const Json& manifest, const std::string& file, bool changed) {
     const auto fail = [&](const std::string& path, const std::string& found, const std::string& expected) {
@@ -39,7 +35,7 @@ std::vector<Candidate> members_of(const Json& manifest, const std::string& file,
     }
     std::vector<Candidate> out;
     for (const auto& member : manifest["members"]) {
-        const std::string name = text_at(member, "name");
+        const std::string name = input::text_at(member, "name");
         const std::string path = fmt::format("/members/{}", out.size());
         if (name.empty() || name.front() == '.' || name.find_first_of("/\\") != std::string::npos) {
             fail(path + "/name", "\"" + name + "\"", "the name of a folder");
@@ -47,7 +43,7 @@ std::vector<Candidate> members_of(const Json& manifest, const std::string& file,
         if (!member.contains("deck") || !member["deck"].is_object()) {
             fail(path + "/deck", "no deck", "a deck");
         }
-        out.push_back({file, name, {member["deck"], "", {}}, changed ? "" : text_at(member, "specimen_hash")});
+        out.push_back({file, name, {member["deck"], "", {}}, changed ? "" : input::text_at(member, "specimen_hash")});
     }
     return out;
 }
@@ -60,7 +56,7 @@ std::vector<Candidate> candidates(const std::string& file, const std::vector<std
         raw = members_of(json, file, !settings.empty());
     } else if (json.contains("proveta_manifest")) {
         const Json deck = json.contains("deck") ? Json(json["deck"]) : Json::object();
-        raw.push_back({file, "", {deck, "", {}}, settings.empty() ? text_at(json, "specimen_hash") : ""});
+        raw.push_back({file, "", {deck, "", {}}, settings.empty() ? input::text_at(json, "specimen_hash") : ""});
     } else {
         raw.push_back({file, "", {json, "", {}}, ""});
     }

@@ -19,6 +19,7 @@
 #include "lab/series/workers.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
+#include "specimens/memory.hpp"
 
 namespace proveta {
 
@@ -150,7 +151,7 @@ std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specime
     for (std::size_t k = 0; k < n; ++k) {
         results[k].member = &plan.members[k];
     }
-    const std::size_t workers = members_at_once(threads, n, memory_of_test(specimens.largest), available_memory());
+    const std::size_t workers = members_at_once(threads, n, memory_of_test(specimens.largest), static_cast<double>(available_memory()));
     board.log(fmt::format("{} at once on {} {}", workers, threads, threads == 1 ? "thread" : "threads"));
     std::atomic<std::size_t> next{0};
     const auto work = [&](std::size_t worker) {

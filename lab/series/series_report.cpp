@@ -13,8 +13,6 @@ namespace proveta {
 namespace {
 
 constexpr std::size_t most_named = 10; // curves of a plot that a key can still tell apart
-constexpr const char* palette[] = {"#1f4e79", "#c0392b", "#1e7b46", "#b9770e", "#7d3c98",
-                                   "#0e8a93", "#111111", "#d35f9e", "#7f8c8d", "#6e5a1e"};
 
 // A result in the unit that suits the largest of several values.
 struct Shown {
@@ -145,8 +143,8 @@ std::vector<report::Plot> combined_plots(const SeriesResults& r) {
                 {"Main curves of the tests: " + axes.y_title + " over " + axes.x_title + ".", axes.x_title, axes.y_title, {}, {}});
         }
         const auto [colour, name] = legend_of(r, k);
-        report::Curve drawn{name, curve->values.x, curve->values.y, palette[colour % std::size(palette)]};
-        drawn.style = colour / std::size(palette) % 2 == 0 ? report::CurveStyle::solid : report::CurveStyle::dashed;
+        report::Curve drawn{name, curve->values.x, curve->values.y};
+        report::tell_apart(drawn, colour);
         for (double& v : drawn.x) {
             v *= axes.x_factor;
         }

@@ -1,9 +1,6 @@
 #include "lab/series/workers.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <limits>
-#include <string>
 
 namespace proveta {
 
@@ -19,19 +16,6 @@ constexpr double share_of_available = 0.8; // the rest is for other programs
 } // namespace
 
 double memory_of_test(std::size_t spheres) { return bytes_a_test + bytes_a_sphere * static_cast<double>(spheres); }
-
-std::optional<double> available_memory() {
-    std::ifstream in("/proc/meminfo");
-    std::string name;
-    double kibibytes = 0.0;
-    while (in >> name >> kibibytes) {
-        if (name == "MemAvailable:") {
-            return 1024.0 * kibibytes;
-        }
-        in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-    }
-    return std::nullopt;
-}
 
 std::size_t members_at_once(std::size_t threads, std::size_t members, double bytes_a_member, std::optional<double> available) {
     std::size_t most = std::min(threads, members);

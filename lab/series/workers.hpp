@@ -10,9 +10,6 @@ namespace proveta {
 /// Memory that a test of so many spheres takes, bytes: an estimate to the safe side.
 double memory_of_test(std::size_t spheres);
 
-/// Memory that programs can still have without swapping, bytes (MemAvailable of /proc/meminfo); none where the system does not say.
-std::optional<double> available_memory();
-
 /// How many members run at once: no more than there are threads or members, and no more than fit into the memory, but at least one.
 std::size_t members_at_once(std::size_t threads, std::size_t members, double bytes_a_member, std::optional<double> available);
 

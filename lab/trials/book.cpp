@@ -14,6 +14,7 @@
 
 #include "lab/series/workers.hpp"
 #include "lab/trials/pool.hpp"
+#include "specimens/memory.hpp"
 
 namespace proveta {
 
@@ -161,7 +162,7 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
         largest = std::max(largest, u.spheres);
     }
     const std::size_t at_once =
-        members_at_once(threads_, units.size(), memory_of_test(static_cast<std::size_t>(largest)), available_memory());
+        members_at_once(threads_, units.size(), memory_of_test(static_cast<std::size_t>(largest)), static_cast<double>(available_memory()));
     for (const auto& u : units) {
         const fs::path folder = folders_.trial(trials[u.trial].key);
         commands.push_back(

@@ -8,7 +8,6 @@
 #include <new>
 #include <sstream>
 
-#include "core/hash.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 #include "lab/results.hpp"
@@ -24,14 +23,6 @@ using input::Json;
 
 namespace {
 
-std::string key_of(const std::string& text) {
-    Hash hash;
-    for (const unsigned char c : text) {
-        hash.mix(static_cast<std::uint64_t>(c));
-    }
-    return hex(hash.value());
-}
-
 std::string bytes_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream text;
@@ -42,7 +33,7 @@ std::string bytes_of(const fs::path& file) {
 // A specimen made by a recipe, and not a stored one.
 bool made(const Json& deck) { return deck["specimen"].value("file", "").empty(); }
 
-std::string specimen_key(const Json& deck) { return key_of(deck["specimen"].dump()); }
+std::string specimen_key(const Json& deck) { return hash_of_text(deck["specimen"].dump()); }
 
 void run(const fs::path& folder, JobResult& result) {
     Deck deck = read_deck(input::load_json((folder / "deck.json").string()), (folder / "deck.json").string());
@@ -87,7 +78,7 @@ Trial keyed(Trial trial) {
             all += bytes_of(job.deck["specimen"]["file"].get<std::string>());
         }
     }
-    trial.key = key_of(all);
+    trial.key = hash_of_text(all);
     return trial;
 }
 

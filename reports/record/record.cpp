@@ -1,5 +1,7 @@
 #include "reports/record/record.hpp"
 
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,6 +55,13 @@ std::vector<KeyFigure> key_figures(const std::vector<Scalar>& results, const std
         }
     }
     return out;
+}
+
+void tell_apart(Curve& curve, std::size_t k) {
+    static constexpr const char* palette[] = {"#1f4e79", "#c0392b", "#1e7b46", "#b9770e", "#7d3c98",
+                                              "#0e8a93", "#111111", "#d35f9e", "#7f8c8d", "#6e5a1e"};
+    curve.colour = palette[k % std::size(palette)];
+    curve.style = k / std::size(palette) % 2 == 0 ? CurveStyle::solid : CurveStyle::dashed;
 }
 
 } // namespace proveta::report

@@ -60,6 +60,9 @@ struct Curve {
     double width = 1.8; ///< of the line, in pixels
 };
 
+/// Gives a curve the colour and style by which the k-th of many is told from the others.
+void tell_apart(Curve& curve, std::size_t k);
+
 /// A plot: curves with axis titles in the units of the page.
 struct Plot {
     std::string title;
