@@ -43,7 +43,8 @@ class XmlCheck {
         }
     }
 
-    // Sizes in front of arrays of bytes.
+    // Sizes in front of arrays of bytes, and where the cells of a section end in the list of their points: the length that VTK's reader
+    // gives that list. Of arrays that are not compressed: the rest fit into what they are compressed to.
     void check_arrays() const {
         const auto appended = all_.find("<AppendedData");
         const bool raw = attribute(tag_at(appended), "encoding") == "raw";
@@ -51,35 +52,14 @@ class XmlCheck {
         for (auto at = all_.find("<DataArray"); at < appended; at = all_.find("<DataArray", at + 1)) {
             const std::string_view tag = tag_at(at);
             const std::string_view format = attribute(tag, "format");
+            const bool ends = attribute(tag, "Name") == "offsets";
             std::size_t offset = 0;
             if (format == "binary") {
-                check_sizes(all_.find_first_not_of(space, at + tag.size()), false, word_of(tag));
+                check_bytes({all_.find_first_not_of(space, at + tag.size()), false}, word_of(tag), ends);
             } else if (format == "appended" && parse(attribute(tag, "offset"), offset) && data != std::string_view::npos) {
-                check_sizes(offset < all_.size() - data ? data + 1 + offset : all_.size(), raw, word_of(tag));
-            }
-        }
-    }
-
-    // Where the cells of a section end in the list of their points: the length that VTK's reader gives that list. Of text only: the rest
-    // would have to be decompressed.
-    void check_offsets() const {
-        for (auto at = all_.find("\"offsets\""); at != std::string_view::npos; at = all_.find("\"offsets\"", at + 1)) {
-            const auto begin = all_.rfind('<', at);
-            const std::string_view tag = tag_at(begin);
-            if (begin == std::string_view::npos || attribute(tag, "format") != "ascii") {
-                continue;
-            }
-            const std::size_t from = begin + tag.size();
-            const auto values = all_.substr(from, std::min(all_.find('<', from), all_.size()) - from);
-            const auto last = values.find_last_not_of(space);
-            if (last == std::string_view::npos) {
-                continue;
-            }
-            const auto before = values.find_last_of(space, last);
-            const auto word = values.substr(before + 1, last - before); // of npos: from the first
-            if (double value = 0.0; parse(word, value) && value > size()) {
-                fail(fmt::format("the cells' last offset is {}, and a file of {} bytes cannot list so many points", shown(word),
-                                 all_.size()));
+                check_bytes({offset < all_.size() - data ? data + 1 + offset : all_.size(), raw}, word_of(tag), ends);
+            } else if (format == "ascii" && ends) {
+                check_last_number(at + tag.size());
             }
         }
     }
@@ -109,32 +89,38 @@ class XmlCheck {
     }
 
     // Bytes of an array's values, which end their type's name in bits.
-    [[nodiscard]] double word_of(std::string_view tag) const {
+    [[nodiscard]] std::size_t word_of(std::string_view tag) const {
         const std::string_view type = attribute(tag, "type");
-        return type.ends_with("64") ? 8.0 : type.ends_with("32") ? 4.0 : type.ends_with("16") ? 2.0 : 1.0;
+        return type.ends_with("64") ? 8 : type.ends_with("32") ? 4 : type.ends_with("16") ? 2 : 1;
     }
 
-    // Byte of what begins at `at`; none beyond the end, or where base64 ends.
-    [[nodiscard]] std::optional<unsigned> byte(std::size_t at, std::size_t k, bool raw) const {
-        if (raw) {
-            return at + k < all_.size() ? std::optional(static_cast<unsigned>(static_cast<unsigned char>(all_[at + k]))) : std::nullopt;
+    // Where an array's bytes begin, and whether they stand there as they are or in base64.
+    struct Bytes {
+        std::size_t at;
+        bool raw;
+    };
+    // None beyond the end, or where base64 ends.
+    [[nodiscard]] std::optional<unsigned> byte(const Bytes& b, std::size_t k) const {
+        if (b.raw) {
+            return b.at + k < all_.size() ? std::optional(static_cast<unsigned>(static_cast<unsigned char>(all_[b.at + k]))) : std::nullopt;
         }
         constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-        const std::size_t first = at + k / 3 * 4 + k % 3;
+        const std::size_t first = b.at + k / 3 * 4 + k % 3;
         if (first + 1 >= all_.size()) {
             return std::nullopt;
         }
-        const auto a = letters.find(all_[first]);
-        const auto b = letters.find(all_[first + 1]);
-        if (a == std::string_view::npos || b == std::string_view::npos) {
+        const auto one = letters.find(all_[first]);
+        const auto two = letters.find(all_[first + 1]);
+        if (one == std::string_view::npos || two == std::string_view::npos) {
             return std::nullopt;
         }
-        return static_cast<unsigned>((a << (2 * (k % 3 + 1)) | b >> (4 - 2 * (k % 3))) & 255U);
+        return static_cast<unsigned>((one << (2 * (k % 3 + 1)) | two >> (4 - 2 * (k % 3))) & 255U);
     }
-    [[nodiscard]] std::optional<double> word(std::size_t at, std::size_t number, bool raw) const {
+    // The whole number of `size` bytes that begins at one of them.
+    [[nodiscard]] std::optional<double> number(const Bytes& b, std::size_t begin, std::size_t size) const {
         double value = 0.0;
-        for (std::size_t k = 0; k < word_; ++k) {
-            const auto one = byte(at, number * word_ + (big_ ? k : word_ - 1 - k), raw);
+        for (std::size_t k = 0; k < size; ++k) {
+            const auto one = byte(b, begin + (big_ ? k : size - 1 - k));
             if (!one) {
                 return std::nullopt;
             }
@@ -142,33 +128,59 @@ class XmlCheck {
         }
         return value;
     }
+    [[nodiscard]] std::optional<double> word(const Bytes& b, std::size_t k) const { return number(b, k * word_, word_); }
+
     // Of an array: its bytes; or blocks, their size, that of the last one, and what they are compressed to. What is not there the reader
     // will miss.
-    void check_sizes(std::size_t at, bool raw, double word_size) const {
-        const auto first = word(at, 0, raw);
+    void check_bytes(const Bytes& b, std::size_t value_size, bool ends) const {
+        const auto first = word(b, 0);
         if (first.value_or(0.0) > size()) {
             fail(fmt::format("{:.0f} bytes or blocks are announced, which a file of {} bytes cannot hold", *first, all_.size()));
         }
-        if (!compressed_ || !first) {
+        if (!first) {
             return;
         }
-        if (const auto block = word(at, 1, raw); *first > 0.0 && block && *block < word_size) { // by which the reader divides
+        if (compressed_) {
+            check_blocks(b, *first, static_cast<double>(value_size));
+        } else if (const auto bytes = static_cast<std::size_t>(*first); ends && bytes >= value_size) {
+            check_end(number(b, word_ + (bytes / value_size - 1) * value_size, value_size).value_or(0.0));
+        }
+    }
+    void check_blocks(const Bytes& b, double blocks, double value_size) const {
+        if (const auto block = word(b, 1); blocks > 0.0 && block && *block < value_size) { // by which the reader divides
             fail(fmt::format("blocks of {:.0f} bytes are announced, less than a value takes", *block));
         }
         for (const std::size_t k : {1U, 2U}) {
-            if (const double block = word(at, k, raw).value_or(0.0); *first * block > densest * size()) {
-                fail(fmt::format("{:.0f} blocks of {:.0f} bytes are announced, which a file of {} bytes cannot hold", *first, block,
+            if (const double block = word(b, k).value_or(0.0); blocks * block > densest * size()) {
+                fail(fmt::format("{:.0f} blocks of {:.0f} bytes are announced, which a file of {} bytes cannot hold", blocks, block,
                                  all_.size()));
             }
         }
-        for (std::size_t k = 0; k < static_cast<std::size_t>(*first); ++k) {
-            const auto packed = word(at, 3 + k, raw);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(blocks); ++k) {
+            const auto packed = word(b, 3 + k);
             if (!packed) {
                 return;
             }
             if (*packed > size()) {
                 fail(fmt::format("a block of {:.0f} bytes is announced, which a file of {} bytes cannot hold", *packed, all_.size()));
             }
+        }
+    }
+    // The last of the numbers that stand as text up to the next tag.
+    void check_last_number(std::size_t from) const {
+        const auto values = all_.substr(from, std::min(all_.find('<', from), all_.size()) - from);
+        const auto last = values.find_last_not_of(space);
+        if (last == std::string_view::npos) {
+            return;
+        }
+        const auto before = values.find_last_of(space, last);
+        if (double value = 0.0; parse(values.substr(before + 1, last - before), value)) { // of npos: from the first
+            check_end(value);
+        }
+    }
+    void check_end(double last) const {
+        if (last > size()) {
+            fail(fmt::format("the cells' last offset is {:.0f}, and a file of {} bytes cannot list so many points", last, all_.size()));
         }
     }
 
@@ -186,7 +198,6 @@ void check_xml(const std::string& file) {
     const XmlCheck xml(file);
     xml.check_counts();
     xml.check_arrays();
-    xml.check_offsets();
 }
 
 } // namespace proveta::vtk
