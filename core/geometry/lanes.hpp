@@ -30,9 +30,14 @@ template <class Abi>
 PROVETA_INLINE std::experimental::simd<double, Abi> select(const std::experimental::simd_mask<double, Abi>& condition,
                                                            const std::experimental::simd<double, Abi>& yes,
                                                            const std::experimental::simd<double, Abi>& no) {
+#ifdef __clang__
+    // `where` of GCC 12's library takes the wrong side with AVX-512 when Clang compiles it.
+    return std::experimental::simd<double, Abi>([&](auto k) { return condition[k] ? yes[k] : no[k]; });
+#else
     auto out = no;
     std::experimental::where(condition, out) = yes;
     return out;
+#endif
 }
 
 /// Number of lanes in T: 1 for double.
