@@ -4,11 +4,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <iterator>
 
 #include "core/files/whole_file.hpp"
+#include "lab/clock.hpp"
 #include "lab/fields.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
@@ -24,10 +24,6 @@
 namespace proveta {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void write_picture(const OutputFolder& out, const std::string& name, const std::string& png) {
     std::filesystem::create_directories(out.path() / "pictures");
@@ -256,7 +252,8 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
         }
         constexpr int on_page = 380; // pixels
         for (auto& [file, portrait] : portraits(bench, data.moments, on_page)) {
-            if (file != "past_peak_displacement.png" && file != "peak_cracks.png") { // a page that can still be sent by mail
+            if (file != "past_peak_displacement.png" && file != "past_peak_sideways.png" &&
+                file != "peak_cracks.png") { // a page that can still be sent by mail
                 record.portraits.push_back(std::move(portrait));
             }
         }

@@ -84,7 +84,44 @@ double moved(const Bench& bench, const Snapshot& at, std::size_t k) {
     return (at.position.at(k) - bench.model->spheres.start.at(k)).norm();
 }
 
-// Movement below which 98 % of the spheres are at all moments: single splinters do not decide the colours.
+// What 98 of a hundred stay below: single splinters do not decide the colours.
+double common(std::vector<double> all) {
+    const auto nth = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
+    std::nth_element(all.begin(), nth, all.end());
+    return *nth;
+}
+
+// The cut along the load, its spheres coloured by how far they have moved to the side, all movements drawn larger than they are
+// (as thesis figs 5.31 and 5.33).
+struct Sideways {
+    std::vector<Ball> balls;
+    double most;   // m
+    double larger; // movements are drawn as
+};
+
+Sideways sideways(const Bench& bench, const Snapshot& at) {
+    const Vec3 right = on_its_side(bench) ? Vec3(0, -1, 0) : Vec3(1, 0, 0); // of the picture
+    const auto& start = bench.model->spheres.start;
+    std::vector<double> way;
+    std::vector<double> size;
+    for (std::size_t k = 0; k < at.position.size(); ++k) {
+        way.push_back((at.position.at(k) - start.at(k)).dot(right));
+        size.push_back(std::fabs(way.back()));
+    }
+    Sideways out{{}, common(std::move(size)), 1.0};
+    // By the largest of 1, 2, 5, 10 ... that moves nothing farther than a fiftieth of the specimen's height.
+    const double room = 0.02 * bench.specimen.shape.height / std::max(out.most, 1e-300);
+    const double ten = std::pow(10.0, std::floor(std::log10(std::clamp(room, 1.0, 1e6))));
+    out.larger = room >= 5.0 * ten ? 5.0 * ten : room >= 2.0 * ten ? 2.0 * ten : ten;
+    for (std::size_t k = 0; k < way.size(); ++k) {
+        const Vec3 from = start.at(k);
+        out.balls.push_back({from + out.larger * (at.position.at(k) - from), bench.model->spheres.radius[k],
+                             report::diverging(out.most > 0.0 ? way[k] / out.most : 0.0)});
+    }
+    return out;
+}
+
+// Of all moments.
 double common_displacement(const Bench& bench, const std::vector<Snapshot>& moments) {
     double most = 0.0;
     for (const auto& at : moments) {
@@ -92,9 +129,7 @@ double common_displacement(const Bench& bench, const std::vector<Snapshot>& mome
         for (std::size_t k = 0; k < at.position.size(); ++k) {
             all.push_back(moved(bench, at, k));
         }
-        const auto nth = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
-        std::nth_element(all.begin(), nth, all.end());
-        most = std::max(most, *nth);
+        most = std::max(most, common(std::move(all)));
     }
     return most;
 }
@@ -142,6 +177,14 @@ std::vector<NamedPortrait> portraits(const Bench& bench, const std::vector<Snaps
         }
         if (!bonded) {
             continue;
+        }
+        if (&at != &moments.front() && !flat) {
+            const Sideways s = sideways(bench, at);
+            add(at, "sideways", {s.balls, {}}, inside,
+                fmt::format("Movement to the side in a cut along the load: blue to the left, red to the right, {:.2g} mm and more; all "
+                            "movements drawn {:g} times as large.",
+                            1e3 * s.most, s.larger),
+                "a cut along the load, its spheres coloured by how far they have moved to either side");
         }
         const auto by_damage = balls_by_damage(bench, at);
         const std::size_t n = failed(at, FailureMode::tension) + failed(at, FailureMode::shear);

@@ -23,7 +23,7 @@ std::string to_png(const Image& image) {
     }
     vtkNew<vtkPNGWriter> writer;
     writer->WriteToMemoryOn();
-    writer->SetCompressionLevel(9);
+    writer->SetCompressionLevel(6); // a twentieth larger than with 9, in a third of the time
     writer->SetInputData(data);
     writer->Write();
     vtkUnsignedCharArray* bytes = writer->GetResult();
@@ -55,6 +55,12 @@ Colour sequential(double x) {
                                                   {0.478f, 0.820f, 0.318f},
                                                   {0.992f, 0.906f, 0.145f}}};
     return between(stops, x);
+}
+
+Colour diverging(double x) {
+    static constexpr std::array<Colour, 5> stops{
+        {{0.090f, 0.230f, 0.560f}, {0.390f, 0.610f, 0.860f}, {0.880f, 0.885f, 0.890f}, {0.940f, 0.540f, 0.390f}, {0.620f, 0.060f, 0.120f}}};
+    return between(stops, 0.5 * (1.0 + x));
 }
 
 Colour damage_colour(double x) {

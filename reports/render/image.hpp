@@ -24,6 +24,9 @@ std::string to_png(const Image& image);
 /// Blue over green to yellow, of even steps to the eye and readable without colours (after Viridis); x from 0 to 1.
 Colour sequential(double x);
 
+/// Blue over pale grey to red, for what has a direction; x from -1 to 1.
+Colour diverging(double x);
+
 /// Pale grey to dark red; x from 0 to 1.
 Colour damage_colour(double x);
 

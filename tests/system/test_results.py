@@ -126,7 +126,8 @@ class Results(Case):
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("curve.csv", "events.csv", "summary.json"):
             self.assertEqual((out / name).read_bytes(), kept[name], name)
-        self.assertTrue((out / "pictures" / "end_cut.png").exists())
+        for name in ("end_cut.png", "end_sideways.png"):
+            self.assertTrue((out / "pictures" / name).exists(), name)
         self.assertEqual(json.loads((out / "manifest.json").read_text())["resumed"], [])
         self.assertEqual(self.run_program("report", "nowhere").returncode, 2)
 
