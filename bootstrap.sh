@@ -26,8 +26,11 @@ install_packages() {
 }
 
 build_program() {
+    # As many compilers at once as there are processors, but two gigabytes must be free for each.
+    local jobs
+    jobs=$(awk -v n="$(nproc)" '/MemAvailable/ {m = int($2 / 2097152); print m < 1 ? 1 : m < n ? m : n}' /proc/meminfo)
     cmake --preset release >/dev/null
-    cmake --build --preset release
+    cmake --build --preset release -j "$jobs"
 }
 
 case "${1:-}" in

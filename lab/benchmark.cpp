@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 
 #include "core/parallel/instruction_set.hpp"
 #include "core/parallel/peak_kernel.hpp"
+#include "lab/clock.hpp"
 
 namespace proveta::benchmark {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -47,7 +45,7 @@ Sample sample(Model& model, const std::vector<double>& speeds, int steps) {
     for (int k = 0; k < steps; ++k) {
         model.step(speeds, false);
     }
-    const double wall = std::chrono::duration<double>(Clock::now() - start).count();
+    const double wall = since(start);
     const PhaseTimes& after = model.phase_times();
     return {wall / steps, (after.forces - before.forces) / steps, (after.motion - before.motion) / steps};
 }
@@ -110,7 +108,7 @@ double triad_bandwidth(double bytes, int threads, int repeats) {
         for (int k = 0; k < passes; ++k) {
             pass(1.0 + k);
         }
-        const double wall = std::chrono::duration<double>(Clock::now() - start).count();
+        const double wall = since(start);
         rates.push_back(24.0 * static_cast<double>(n) * passes / wall);
     }
     return median(rates);
@@ -126,7 +124,7 @@ double arithmetic_peak(int threads, int repeats) {
         std::atomic<std::size_t> lanes{0};
         const auto start = Clock::now();
         team.run(static_cast<std::size_t>(threads), [&](std::size_t t) { lanes = kernel(rounds, &sink[8 * t]); });
-        const double wall = std::chrono::duration<double>(Clock::now() - start).count();
+        const double wall = since(start);
         best = std::max(best, static_cast<double>(lanes * rounds * peak_operations) * threads / wall);
     }
     return best;

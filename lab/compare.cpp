@@ -40,12 +40,12 @@ StoredResult read_result(const std::string& folder, const std::string& name, con
 }
 
 // How a column's numbers are shown, by the unit at the end of its name; strains have none.
-struct Shown {
+struct ShownColumn {
     std::string title;
     double factor;
 };
 
-Shown shown(const std::string& column) {
+ShownColumn shown_column(const std::string& column) {
     std::string words = column;
     std::string unit;
     double factor = 1.0;
@@ -232,8 +232,8 @@ report::Plot overlay(const std::vector<StoredResult>& tests, const std::string& 
         }
         report::Curve curve{tests[k].name, tables[0]->values(names[0]), tables[1]->values(names[1])};
         report::tell_apart(curve, k);
-        const Shown along = shown(names[0]);
-        const Shown up = shown(names[1]);
+        const ShownColumn along = shown_column(names[0]);
+        const ShownColumn up = shown_column(names[1]);
         for (auto& value : curve.x) {
             value *= along.factor;
         }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/angles.hpp"
 #include "lab/fragments.hpp"
 
 namespace proveta {
@@ -14,7 +14,6 @@ namespace {
 
 constexpr const char* tension_colour = "#c0392b";
 constexpr const char* shear_colour = "#d68910";
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 // A rose with all facets as its outline; angle_of: degrees from 0 to turn; weight_of: of a facet, m2.
 template <class Angle, class Weight>

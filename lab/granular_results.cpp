@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/angles.hpp"
 #include "lab/axial_results.hpp"
 #include "lab/derived.hpp"
 
@@ -11,7 +11,6 @@ namespace proveta {
 
 namespace {
 
-constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr double window = 0.01; // half of the axial strain that a dilation is read over, so that single stones that slip do not count
 
 // Secant friction angle of a cohesionless material, in degrees.

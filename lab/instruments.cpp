@@ -63,7 +63,7 @@ Mat3 Instruments::mean_strain(const Model& m) const {
 namespace {
 
 // Of the body that a sphere is, or belongs to: a branch of the stress goes from body to body.
-Vec3 centre_of(const Model& m, std::size_t sphere) {
+Vec3 centre_of_body(const Model& m, std::size_t sphere) {
     const auto body = m.clusters.of(sphere);
     return body < 0 ? m.spheres.position.at(sphere) : m.clusters.position[static_cast<std::size_t>(body)];
 }
@@ -77,8 +77,8 @@ Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) c
         if (off_[i] != 0 || off_[j] != 0) {
             return;
         }
-        const Vec3 at_i = centre_of(model, i);
-        const Vec3 at_j = centre_of(model, j);
+        const Vec3 at_i = centre_of_body(model, i);
+        const Vec3 at_j = centre_of_body(model, j);
         const double inside = region.fraction_inside(at_i, at_j);
         if (inside > 0.0) {
             sum -= inside * force * (at_j - at_i).transpose(); // force on i: compression pushes it against the branch

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/angles.hpp"
 #include "lab/derived.hpp"
 #include "lab/series/strength_envelope.hpp"
 
@@ -47,10 +47,8 @@ std::optional<report::Plot> circles_of_test(const report::Table& curve, bool loo
         const double sine = most / (axial[peak] + lateral[peak]);
         const double phi = std::asin(std::clamp(sine, -1.0, 1.0));
         const double reach = 1e-6 * axial[peak];
-        plot.curves.push_back({fmt::format("phi = {:.3g} deg, no cohesion", phi * 180.0 / std::numbers::pi),
-                               {0.0, reach},
-                               {0.0, reach * std::tan(phi)},
-                               "#c0392b"});
+        plot.curves.push_back(
+            {fmt::format("phi = {:.3g} deg, no cohesion", phi * degrees), {0.0, reach}, {0.0, reach * std::tan(phi)}, "#c0392b"});
     }
     return plot;
 }

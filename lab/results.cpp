@@ -187,11 +187,11 @@ report::TextTable provenance_table(const Deck& deck, const Bench& bench) {
 }
 
 // What stands large at the head: of these, in this order, those that the test has.
-const std::vector<std::string> main_results{"friction_angle", "strength",        "splitting_strength", "tensile_strength",
-                                            "crush_pressure", "yield_stress",    "young_modulus",      "constrained_modulus",
-                                            "bulk_modulus",   "initial_modulus", "poisson_ratio",      "lateral_give",
-                                            "strain_at_peak", "fracture_energy", "dilation_angle",     "confining_pressure",
-                                            "strain_ratio"};
+const std::vector<std::string> key_results{"friction_angle", "strength",        "splitting_strength", "tensile_strength",
+                                           "crush_pressure", "yield_stress",    "young_modulus",      "constrained_modulus",
+                                           "bulk_modulus",   "initial_modulus", "poisson_ratio",      "lateral_give",
+                                           "strain_at_peak", "fracture_energy", "dilation_angle",     "confining_pressure",
+                                           "strain_ratio"};
 
 // Parts of the page below headings of their own.
 void add_sections(report::Record& r, const Deck& deck, const Bench& bench, const TestData& data) {
@@ -259,7 +259,7 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
         if (const auto circles = circles_of_test(data.curve, bench.model->bonds.size() == 0)) {
             r.plots.push_back(*circles);
         }
-        r.key_figures = report::key_figures(r.results, main_results);
+        r.key_figures = report::key_figures(r.results, key_results);
         if (!acoustic.empty()) {
             r.plots.push_back(acoustic_activity_plot(acoustic));
             r.plots.push_back(magnitude_plot(acoustic));

@@ -6,14 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/angles.hpp"
 #include "lab/crack_report.hpp"
 #include "specimens/grading.hpp"
 
 namespace proveta {
 
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 // Diameters of the particles, of stones those of the spheres of their volumes, m.
 std::vector<double> diameters_of(const Specimen& s) {

@@ -56,7 +56,7 @@ Curve thinned(const Curve& c, std::size_t every) {
     return out;
 }
 
-Plot light(Plot plot) {
+Plot light_enough(Plot plot) {
     std::size_t points = 0;
     for (const auto& c : plot.curves) {
         points += c.x.size();
@@ -120,7 +120,7 @@ std::string key_of(const Plot& plot, const std::vector<int>& markers) {
 } // namespace
 
 std::string figure(const Plot& full) {
-    const Plot plot = light(full);
+    const Plot plot = light_enough(full);
     const auto markers = markers_of(plot);
     return fmt::format("<figure class=\"plot\"><figcaption>{}</figcaption><div class=\"drawing\">{}</div>{}"
                        "<script type=\"application/json\">{}</script></figure>\n",

@@ -8,7 +8,7 @@ namespace proveta {
 
 namespace {
 
-constexpr const char* format_name = "proveta checkpoint 2";
+constexpr const char* checkpoint_format = "proveta checkpoint 2";
 
 // Stores what it is shown, or restores it.
 template <class Go> class Visitor : public StateVisitor {
@@ -36,7 +36,7 @@ std::string earlier_checkpoint(const std::string& file) {
 void save_checkpoint(const std::string& file, const std::string& owner, const VisitState& state) {
     const std::string next = file + ".next";
     Hdf5File h(next, Hdf5File::Mode::create);
-    h.put_text("format", format_name);
+    h.put_text("format", checkpoint_format);
     h.put_text("owner", owner);
     Visitor visitor([&](const std::string& name, const auto& value) { h.put(name, value); });
     state(visitor);
@@ -49,7 +49,7 @@ void save_checkpoint(const std::string& file, const std::string& owner, const Vi
 void load_checkpoint(const std::string& file, const std::string& owner, const VisitState& state) {
     try {
         const Hdf5File h(file, Hdf5File::Mode::read);
-        if (!h.has("format") || h.get_text("format") != format_name) {
+        if (!h.has("format") || h.get_text("format") != checkpoint_format) {
             throw CheckpointError(file + ": not a checkpoint of this program");
         }
         if (h.get_text("owner") != owner) {

@@ -13,7 +13,7 @@ namespace proveta {
 
 namespace {
 
-double density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi); }
+double normal_density(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi); }
 double cumulative(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 // Mean and deviation of a normal variable (m, s) cut to [a, b].
@@ -21,9 +21,9 @@ std::pair<double, double> cut_moments(double m, double s, double a, double b) {
     const double al = (a - m) / s;
     const double be = (b - m) / s;
     const double z = cumulative(be) - cumulative(al);
-    const double shift = (density(al) - density(be)) / z;
+    const double shift = (normal_density(al) - normal_density(be)) / z;
     const double mean = m + s * shift;
-    const double variance = s * s * (1.0 + (al * density(al) - be * density(be)) / z - shift * shift);
+    const double variance = s * s * (1.0 + (al * normal_density(al) - be * normal_density(be)) / z - shift * shift);
     return {mean, std::sqrt(std::max(variance, 0.0))};
 }
 

@@ -38,7 +38,7 @@ struct Property {
     Type count = Type::uint8; ///< of a list
 };
 
-struct Kind {
+struct ElementKind {
     std::string name;
     std::size_t number = 0;
     std::vector<Property> properties;
@@ -52,7 +52,7 @@ class Ply {
     }
 
     vtkSmartPointer<vtkPolyData> read() {
-        for (const Kind& kind : kinds_) {
+        for (const ElementKind& kind : kinds_) {
             for (std::size_t k = 0; k < kind.number && !kind.properties.empty(); ++k) {
                 read_element(kind);
             }
@@ -96,7 +96,7 @@ class Ply {
                 binary_ = words[1] != "ascii";
                 turned_ = words[1] == (std::endian::native == std::endian::little ? "binary_big_endian" : "binary_little_endian");
             } else if (words[0] == "element" && words.size() == 3) {
-                Kind& kind = kinds_.emplace_back();
+                ElementKind& kind = kinds_.emplace_back();
                 kind.name = words[1];
                 if (!parse(words[2], kind.number) || kind.number > left()) {
                     fail(fmt::format("{} {} are announced, which a file of {} bytes cannot hold", shown(words[2]), shown(words[1]),
@@ -157,7 +157,7 @@ class Ply {
         return static_cast<std::size_t>(value);
     }
 
-    void read_element(const Kind& kind) {
+    void read_element(const ElementKind& kind) {
         double place[3] = {0.0, 0.0, 0.0};
         for (const Property& p : kind.properties) {
             const bool face = p.list && kind.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
@@ -187,7 +187,7 @@ class Ply {
     std::size_t at_ = 0;
     bool binary_ = false;
     bool turned_ = false; // bytes are in the other order than this machine's
-    std::vector<Kind> kinds_;
+    std::vector<ElementKind> kinds_;
     vtkNew<vtkPoints> points_;
     vtkNew<vtkCellArray> faces_;
 };

@@ -12,7 +12,7 @@ namespace proveta {
 
 namespace {
 
-constexpr const char* format_name = "proveta specimen 1";
+constexpr const char* specimen_format = "proveta specimen 1";
 
 // Forms one after the other, then stones.
 void put_stones(const Specimen& s, Hdf5File& h) {
@@ -123,7 +123,7 @@ std::vector<Stone> get_stones(const Hdf5File& h, std::size_t forms) {
 
 void save_specimen(const Specimen& s, const std::string& file) {
     Hdf5File h(file, Hdf5File::Mode::create);
-    h.put_text("format", format_name);
+    h.put_text("format", specimen_format);
     h.put("x", s.spheres.centre.x);
     h.put("y", s.spheres.centre.y);
     h.put("z", s.spheres.centre.z);
@@ -146,7 +146,7 @@ void save_specimen(const Specimen& s, const std::string& file) {
 
 Specimen load_specimen(const std::string& file) {
     const Hdf5File h(file, Hdf5File::Mode::read);
-    if (!h.has("format") || h.get_text("format") != format_name) {
+    if (!h.has("format") || h.get_text("format") != specimen_format) {
         throw std::runtime_error("not a specimen of this program");
     }
     Specimen s;

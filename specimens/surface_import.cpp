@@ -53,7 +53,7 @@ vtk::Read<vtkPolyData> read_as(const std::string& type, const std::string& file)
     throw std::runtime_error(fmt::format("{}: surfaces are read from .stl, .obj, .ply, .vtk and .vtp files", file));
 }
 
-vtkSmartPointer<vtkPolyData> read(const std::string& file) {
+vtkSmartPointer<vtkPolyData> read_surface_data(const std::string& file) {
     require_file(file);
     const auto [data, complaint] = read_as(ending(file), file);
     if (data == nullptr || data->GetNumberOfPolys() + data->GetNumberOfStrips() == 0) {
@@ -101,7 +101,7 @@ vtkSmartPointer<vtkPolyData> cut_into_triangles(vtkPolyData& data) {
 } // namespace
 
 ImportedSurface import_surface(const std::string& file, double scale) {
-    auto data = read(file);
+    auto data = read_surface_data(file);
     ImportedSurface out;
     if (data->GetNumberOfStrips() > 0) {
         data = cut_into_triangles(*data);

@@ -21,14 +21,20 @@ class Dice {
         m << in_box(half), in_box(half), in_box(half);
         return m;
     }
-    Mat3 turn() {
+    Eigen::Quaterniond attitude() {
         const Vec3 v = in_box(1.0);
-        return Eigen::Quaterniond((*this)(-1, 1), v.x(), v.y(), v.z()).normalized().toRotationMatrix();
+        return Eigen::Quaterniond((*this)(-1, 1), v.x(), v.y(), v.z()).normalized();
     }
+    Mat3 turn() { return attitude().toRotationMatrix(); }
 
   private:
     std::mt19937 engine_;
 };
+
+/// Every law and form that a deformable body can have.
+constexpr SolidLaw laws[] = {SolidLaw::kirchhoff, SolidLaw::neo_hookean, SolidLaw::j2};
+enum class BodyKind { tetrahedra, hexahedra, membrane };
+constexpr BodyKind kinds[] = {BodyKind::tetrahedra, BodyKind::hexahedra, BodyKind::membrane};
 
 /// Soft, and plastic at a twentieth of its modulus if its law is.
 inline SolidMaterial soft_solid(SolidLaw law, double yield_stress = 1e5) {
@@ -108,14 +114,14 @@ inline Solid rubber(SolidMesh mesh) {
 }
 
 /// Spheres and one body whose motions are prescribed.
-struct Bench {
+struct CouplingBench {
     Spheres spheres;
     Deformable body;
     std::vector<Material> material;
     Team team{1};
     Loads loads;
 
-    Bench(SolidMesh mesh, const Material& m, Coupling how, double side)
+    CouplingBench(SolidMesh mesh, const Material& m, Coupling how, double side)
         : body(rubber(std::move(mesh)), m, m.bond.mu_d, how, side), material{m} {
         spheres.packed = false;
     }
@@ -144,7 +150,7 @@ struct Bench {
 };
 
 /// The force on the only sphere at a place, without history.
-inline Vec3 force_at(Bench& b, const Vec3& centre) {
+inline Vec3 force_at(CouplingBench& b, const Vec3& centre) {
     b.spheres.position.set(0, centre);
     b.list(0.0);
     for (auto& block : b.body.touches) {

@@ -72,6 +72,22 @@ inline Bonds one_bond(const Spheres& s, const Material& m) {
     return make_bonds(s, {m}, {{0, 1}}, {0, 0}, weight);
 }
 
+inline void run(Model& model, int steps) {
+    for (int k = 0; k < steps; ++k) {
+        model.step({}, k + 1 == steps);
+    }
+}
+
+/// Problems of a deck given as text.
+inline input::Problems problems_of(const std::string& text) {
+    try {
+        read_deck(input::Json::parse(text), "deck.json");
+    } catch (const input::InputError& e) {
+        return e.problems;
+    }
+    return {};
+}
+
 /// A deck of a compression test on a small specimen, which softens by ratio: its strengths may be anything.
 inline Deck small_deck(int spheres, const std::string& more = "{}") {
     input::Json json = input::Json::parse(R"({"test": "ucs", "specimen": {"diameter": "50 mm", "height": "100 mm"}})");

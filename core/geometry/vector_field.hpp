@@ -11,6 +11,13 @@ namespace proveta {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
+/// The matrix that takes w to v x w.
+inline Mat3 cross_matrix(const Vec3& v) {
+    Mat3 m;
+    m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+    return m;
+}
+
 /// One vector per item, each component in an array of its own so that loops over items vectorise.
 /// Shape: three arrays of equal length; the unit is the quantity's.
 struct VectorField {

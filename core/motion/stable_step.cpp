@@ -15,13 +15,6 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-// The matrix that takes w to v x w.
-Mat3 cross_matrix(const Vec3& v) {
-    Mat3 m;
-    m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-    return m;
-}
-
 // Stiffness and damping of one sphere with its share of every spring.
 struct Block {
     Mat6 stiffness = Mat6::Zero();

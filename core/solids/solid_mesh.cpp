@@ -229,7 +229,7 @@ void drop_unused(SolidMesh& mesh) {
 }
 
 // A face as its element has it, and its nodes in ascending order to find its like by.
-struct Side {
+struct ElementSide {
     std::array<std::uint32_t, 4> key;
     std::size_t order;
     SkinFace face;
@@ -237,7 +237,7 @@ struct Side {
 
 template <std::size_t corners, class Element>
 void add_sides(const std::vector<Element>& elements, const std::array<std::array<std::size_t, corners>, 2 * corners - 2>& faces,
-               std::vector<Side>& out) {
+               std::vector<ElementSide>& out) {
     for (const auto& element : elements) {
         for (const auto& face : faces) {
             SkinFace skin{{element[face[0]], element[face[1]], element[face[2]], element[face[corners - 1]]}, corners == 4};
@@ -250,9 +250,10 @@ void add_sides(const std::vector<Element>& elements, const std::array<std::array
 }
 
 // Those with no like, in their order.
-std::vector<SkinFace> single(std::vector<Side> sides) {
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return std::tie(a.key, a.order) < std::tie(b.key, b.order); });
-    std::vector<Side> alone;
+std::vector<SkinFace> single(std::vector<ElementSide> sides) {
+    std::sort(sides.begin(), sides.end(),
+              [](const ElementSide& a, const ElementSide& b) { return std::tie(a.key, a.order) < std::tie(b.key, b.order); });
+    std::vector<ElementSide> alone;
     for (std::size_t k = 0; k < sides.size();) {
         std::size_t end = k + 1;
         while (end < sides.size() && sides[end].key == sides[k].key) {
@@ -263,7 +264,7 @@ std::vector<SkinFace> single(std::vector<Side> sides) {
         }
         k = end;
     }
-    std::sort(alone.begin(), alone.end(), [](const Side& a, const Side& b) { return a.order < b.order; });
+    std::sort(alone.begin(), alone.end(), [](const ElementSide& a, const ElementSide& b) { return a.order < b.order; });
     std::vector<SkinFace> out;
     for (const auto& side : alone) {
         out.push_back(side.face);
@@ -321,7 +322,7 @@ std::size_t tidy(SolidMesh& mesh) {
 }
 
 std::vector<SkinFace> skin_of(const SolidMesh& mesh) {
-    std::vector<Side> sides;
+    std::vector<ElementSide> sides;
     sides.reserve(4 * mesh.tetrahedra.size() + 6 * mesh.hexahedra.size());
     add_sides<3>(mesh.tetrahedra, tetrahedron_faces, sides);
     add_sides<4>(mesh.hexahedra, hexahedron_faces, sides);

@@ -12,8 +12,6 @@ namespace proveta {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 void require(bool met, const char* what) {
     if (!met) {
         throw std::invalid_argument(what);
@@ -64,7 +62,7 @@ Eigen::Vector2d core_place(double u, double v) {
     constexpr double bulge = 1.0 / 3.0;
     const bool wide = std::fabs(u) >= std::fabs(v);
     const double reach = wide ? u : v;
-    const double angle = reach == 0.0 ? 0.0 : 0.25 * pi * (wide ? v : u) / reach;
+    const double angle = reach == 0.0 ? 0.0 : 0.25 * std::numbers::pi * (wide ? v : u) / reach;
     const Eigen::Vector2d round =
         reach * (wide ? Eigen::Vector2d(std::cos(angle), std::sin(angle)) : Eigen::Vector2d(std::sin(angle), std::cos(angle)));
     return (1.0 - bulge) * std::numbers::sqrt2 / 2.0 * Eigen::Vector2d(u, v) + bulge * round;
@@ -121,7 +119,7 @@ void add_rings(Section& section, double radius, int core, int rings) {
         std::vector<std::uint32_t> outer;
         section.outermost = static_cast<std::uint32_t>(section.point.size());
         for (std::size_t k = 0; k < edge.size(); ++k) {
-            const double angle = 2.0 * pi * static_cast<double>(k) / section.around - 0.75 * pi;
+            const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / section.around - 0.75 * std::numbers::pi;
             const Eigen::Vector2d rim = radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
             const double share = static_cast<double>(ring) / rings;
             outer.push_back(static_cast<std::uint32_t>(section.point.size()));
@@ -204,7 +202,8 @@ SolidMesh tube_membrane(double radius, double height, int around, int layers) {
     SolidMesh mesh;
     for (int layer = 0; layer <= layers; ++layer) {
         for (int k = 0; k < around; ++k) {
-            const double angle = 2.0 * pi * (k + 0.5 * (layer % 2)) / around; // turning on and on would only number nodes otherwise
+            const double angle =
+                2.0 * std::numbers::pi * (k + 0.5 * (layer % 2)) / around; // turning on and on would only number nodes otherwise
             put(mesh, {radius * std::cos(angle), radius * std::sin(angle), height * layer / layers});
         }
     }

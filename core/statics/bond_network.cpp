@@ -9,12 +9,6 @@ namespace {
 
 constexpr std::size_t part = 128; // spheres a part of the work
 
-Mat3 cross_matrix(const Vec3& a) {
-    Mat3 m;
-    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-    return m;
-}
-
 // a x B column by column.
 template <int W, class B> Eigen::Matrix<double, 3, W> cross(const Vec3& a, const B& b) {
     Eigen::Matrix<double, 3, W> out;

@@ -93,8 +93,8 @@ class Calibration {
     [[nodiscard]] std::size_t small_seeds() const { return static_cast<std::size_t>(in_.search.seeds); }
 
     // Trials on small specimens, corrected by what the last round found.
-    [[nodiscard]] std::vector<Sample> samples() const {
-        std::vector<Sample> out;
+    [[nodiscard]] std::vector<SearchPoint> samples() const {
+        std::vector<SearchPoint> out;
         for (const auto& t : out_.trials) {
             if (!t.whole) {
                 out.push_back({t.u, corrected(t.deviations), t.deviations.complete});
@@ -153,7 +153,7 @@ class Calibration {
         for (std::int64_t r = 0; r < in_.finish.rounds; ++r) {
             const std::size_t small = best_small();
             Round round;
-            const Sample expected{{}, corrected(out_.trials[small].deviations), true};
+            const SearchPoint expected{{}, corrected(out_.trials[small].deviations), true};
             round.expected = expected.score();
             add("finish", true, {out_.trials[small].u}, fmt::format("round {} of {} on whole specimens", r + 1, in_.finish.rounds));
             round.trial = out_.trials.size() - 1;
@@ -266,7 +266,7 @@ class Calibration {
                 continue; // cut off by a bound
             }
             profile.u.push_back(where[k][p]);
-            const Sample s{{}, corrected(found[k]), true};
+            const SearchPoint s{{}, corrected(found[k]), true};
             profile.score.push_back(found[k].complete ? s.score() : std::nan(""));
             if (found[k].complete) {
                 good.push_back(k);

@@ -18,9 +18,6 @@ using report::CurveStyle;
 using report::Plot;
 using report::TextTable;
 
-constexpr const char* palette[] = {"#1f4e79", "#c0392b", "#1e7b46", "#b9770e", "#7d3c98", "#0e8a93", "#7f8c8d", "#d35f9e"};
-const char* colour(std::size_t k) { return palette[k % std::size(palette)]; }
-
 // A value in the unit that people use.
 std::string shown(double value, const std::string& unit) {
     const auto r = report::readable({"", "", value, unit, ""});
@@ -146,7 +143,8 @@ Plot profile_plot(const CalibrationPlan& plan, const Confidence& c) {
               {},
               {}};
     for (std::size_t k = 0; k < c.profiles.size(); ++k) {
-        Curve curve{plan.space[k].name, {}, {}, colour(k), k < std::size(palette) ? CurveStyle::solid : CurveStyle::dashed};
+        Curve curve{plan.space[k].name, {}, {}};
+        tell_apart(curve, k);
         for (std::size_t p = 0; p < c.profiles[k].u.size(); ++p) {
             if (std::isfinite(c.profiles[k].score[p])) {
                 curve.x.push_back(c.profiles[k].u[p]);

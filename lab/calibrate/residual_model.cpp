@@ -26,9 +26,9 @@ double chebyshev(const std::vector<double>& a, const std::vector<double>& b) {
     return d;
 }
 
-double Sample::score() const { return std::sqrt(std::inner_product(deviation.begin(), deviation.end(), deviation.begin(), 0.0)); }
+double SearchPoint::score() const { return std::sqrt(std::inner_product(deviation.begin(), deviation.end(), deviation.begin(), 0.0)); }
 
-ResidualModel::ResidualModel(const std::vector<Sample>& samples, std::vector<double> centre, double radius)
+ResidualModel::ResidualModel(const std::vector<SearchPoint>& samples, std::vector<double> centre, double radius)
     : samples_(samples), centre_(std::move(centre)), radius_(radius) {
     const auto terms = features(centre_).size();
     const auto deviations = static_cast<Eigen::Index>(samples.front().deviation.size());

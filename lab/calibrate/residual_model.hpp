@@ -8,7 +8,7 @@
 namespace proveta {
 
 /// A trial as the search sees it.
-struct Sample {
+struct SearchPoint {
     std::vector<double> u;         ///< in the unit cube
     std::vector<double> deviation; ///< of all fitted targets (`Deviations::all`)
     bool complete = true;          ///< nothing in the deviations stands for a missing result
@@ -22,7 +22,7 @@ struct Sample {
 class ResidualModel {
   public:
     /// samples: at least two complete ones; those that are not tell where none is to be expected. radius: in the unit cube.
-    ResidualModel(const std::vector<Sample>& samples, std::vector<double> centre, double radius);
+    ResidualModel(const std::vector<SearchPoint>& samples, std::vector<double> centre, double radius);
 
     /// Square of the score expected at u.
     [[nodiscard]] double square(const std::vector<double>& u) const;
@@ -34,7 +34,7 @@ class ResidualModel {
     [[nodiscard]] Eigen::VectorXd features(const std::vector<double>& u) const;
     [[nodiscard]] bool promising(const std::vector<double>& u) const;
 
-    const std::vector<Sample>& samples_;
+    const std::vector<SearchPoint>& samples_;
     std::vector<double> centre_;
     double radius_;
     Eigen::MatrixXd coefficients_; // features x deviations

@@ -18,7 +18,8 @@ using Point = std::vector<double>;
 constexpr double too_near = 2e-3;
 constexpr double wide_radius = 0.4; // of a model that sees most of the cube
 
-std::vector<Point> propose_globally(const std::vector<Sample>& samples, std::size_t dimensions, std::size_t count, std::uint64_t seed) {
+std::vector<Point> propose_globally(const std::vector<SearchPoint>& samples, std::size_t dimensions, std::size_t count,
+                                    std::uint64_t seed) {
     const auto n = static_cast<long>(dimensions);
     const dlib::function_spec cube(dlib::zeros_matrix<double>(n, 1), dlib::ones_matrix<double>(n, 1));
     std::vector<dlib::function_evaluation> known;
@@ -53,7 +54,7 @@ std::vector<Point> propose_at_random(std::size_t dimensions, std::size_t count, 
 }
 
 // Distance from the best within which so many trials lie that a model can be told from them.
-double radius_around(const Point& best, const std::vector<Sample>& samples) {
+double radius_around(const Point& best, const std::vector<SearchPoint>& samples) {
     std::vector<double> distances;
     for (const auto& s : samples) {
         distances.push_back(chebyshev(s.u, best));
@@ -63,9 +64,9 @@ double radius_around(const Point& best, const std::vector<Sample>& samples) {
     return std::clamp(distances[wanted], 0.05, 0.5);
 }
 
-std::vector<Point> propose_by_models(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed) {
-    std::vector<Sample> complete;
-    std::copy_if(samples.begin(), samples.end(), std::back_inserter(complete), [](const Sample& s) { return s.complete; });
+std::vector<Point> propose_by_models(const std::vector<SearchPoint>& samples, std::size_t count, std::uint64_t seed) {
+    std::vector<SearchPoint> complete;
+    std::copy_if(samples.begin(), samples.end(), std::back_inserter(complete), [](const SearchPoint& s) { return s.complete; });
     const Point centre = samples[best_sample(samples)].u;
     const double near = radius_around(centre, complete);
     std::vector<Point> out;
@@ -82,12 +83,12 @@ std::vector<Point> propose_by_models(const std::vector<Sample>& samples, std::si
 }
 
 // Moves points that repeat an earlier one a little aside.
-void keep_apart(std::vector<Point>& points, const std::vector<Sample>& samples, std::uint64_t seed) {
+void keep_apart(std::vector<Point>& points, const std::vector<SearchPoint>& samples, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     for (std::size_t k = 0; k < points.size(); ++k) {
         const auto repeats = [&] {
             const auto near = [&](const Point& other) { return chebyshev(points[k], other) < too_near; };
-            return std::any_of(samples.begin(), samples.end(), [&](const Sample& s) { return near(s.u); }) ||
+            return std::any_of(samples.begin(), samples.end(), [&](const SearchPoint& s) { return near(s.u); }) ||
                    std::any_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(k), near);
         };
         for (double aside = 0.02; repeats(); aside *= 1.5) {
@@ -100,7 +101,7 @@ void keep_apart(std::vector<Point>& points, const std::vector<Sample>& samples, 
 
 } // namespace
 
-std::size_t best_sample(const std::vector<Sample>& samples) {
+std::size_t best_sample(const std::vector<SearchPoint>& samples) {
     std::size_t best = samples.size();
     for (std::size_t k = 0; k < samples.size(); ++k) {
         if (samples[k].complete && (best == samples.size() || samples[k].score() < samples[best].score())) {
@@ -110,13 +111,13 @@ std::size_t best_sample(const std::vector<Sample>& samples) {
     return best;
 }
 
-std::vector<Point> propose(const std::vector<Sample>& samples, std::size_t dimensions, std::size_t count, const std::string& method,
+std::vector<Point> propose(const std::vector<SearchPoint>& samples, std::size_t dimensions, std::size_t count, const std::string& method,
                            std::uint64_t seed) {
     if (samples.empty()) {
         return propose_at_random(dimensions, count, seed);
     }
     const auto complete =
-        static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [](const Sample& s) { return s.complete; }));
+        static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), [](const SearchPoint& s) { return s.complete; }));
     const bool ready = complete >= dimensions + 2; // for models
     const std::size_t by_models = !ready || method == "global" ? 0 : method == "models" ? count : (count + 1) / 2;
     std::vector<Point> out;

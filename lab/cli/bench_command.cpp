@@ -15,7 +15,7 @@ namespace proveta {
 
 namespace {
 
-struct Arguments {
+struct BenchArguments {
     std::string specimen;
     std::vector<int> sizes{1000, 4000, 13500, 100000};
     benchmark::Plan plan;
@@ -23,7 +23,7 @@ struct Arguments {
 };
 
 // The default test on a packing of its own or on a stored one.
-Deck deck_for(const Arguments& a, int spheres) {
+Deck deck_for(const BenchArguments& a, int spheres) {
     // Softening by ratio, which bonds of any length can do: sizes go down to a few spheres.
     input::Json deck = {{"test", "ucs"}, {"material", {{"fracture_energy_tension", 0}, {"fracture_energy_shear", 0}}}};
     if (a.specimen.empty()) {
@@ -40,7 +40,7 @@ double peak_memory() {
     return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-int bench(const Arguments& a) {
+int bench(const BenchArguments& a) {
     const auto sizes = a.specimen.empty() ? a.sizes : std::vector<int>{0};
     fmt::print("# {} {}, {}, vector kernel {}\n", "proveta", version(), PROVETA_COMPILER, instruction_set_name());
     input::Json out = {{"program", version()}, {"compiler", PROVETA_COMPILER}, {"vector_kernel", instruction_set_name()}};
@@ -71,7 +71,7 @@ int bench(const Arguments& a) {
 } // namespace
 
 void add_bench(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<BenchArguments>();
     auto* command = app.add_subcommand("bench", "measure how fast this machine steps specimens");
     command->add_option("--specimen", a->specimen, "measure a stored specimen instead of packings of the default recipe");
     command->add_option("--sizes", a->sizes, "numbers of spheres of the packings")->delimiter(',')->check(CLI::Range(100, 20000000));

@@ -149,11 +149,11 @@ int describe(const std::string& name) {
 } // namespace
 
 void add_describe(CLI::App& app, Command& chosen) {
-    struct Arguments {
+    struct DescribeArguments {
         std::string name;
         bool markdown = false;
     };
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<DescribeArguments>();
     auto* command = app.add_subcommand("describe", "what a test, a material, a section or a key is: meaning, unit, default, bounds");
     command->add_option("name", a->name, "its name; without one, a list");
     command->add_flag("--markdown", a->markdown, "the whole reference as Markdown");

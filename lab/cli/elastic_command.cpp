@@ -1,10 +1,10 @@
 // proveta elastic
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 
 #include "lab/cli/commands.hpp"
+#include "lab/clock.hpp"
 #include "lab/elastic/stiffness.hpp"
 #include "lab/elastic/uniaxial.hpp"
 #include "lab/network.hpp"
@@ -14,16 +14,13 @@ namespace proveta {
 
 namespace {
 
-struct Arguments {
+struct ElasticArguments {
     std::string specimen;
     std::string card = "concrete_sfer";
     std::vector<std::string> settings;
     std::string json;
     int threads = 0;
 };
-
-using Clock = std::chrono::steady_clock;
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 // What the command found.
 struct Elasticity {
@@ -96,7 +93,7 @@ input::Json to_json(const Elasticity& e) {
     return j;
 }
 
-int elastic(const Arguments& a) {
+int elastic(const ElasticArguments& a) {
     use_threads(a.threads);
     input::Json json{{"test", "ucs"}, {"specimen", {{"file", a.specimen}}}, {"material", {{"card", a.card}}}};
     apply_settings(json, a.settings);
@@ -126,7 +123,7 @@ int elastic(const Arguments& a) {
 } // namespace
 
 void add_elastic(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ElasticArguments>();
     auto* command = app.add_subcommand("elastic", "stiffness, E and nu of a stored specimen, by a linear elastic solve");
     command->add_option("specimen", a->specimen, "specimen (.h5)")->required();
     command->add_option("--material", a->card, "card: one of the program's or a JSON file")->capture_default_str();

@@ -69,7 +69,7 @@ template <class F> void on_file(const std::string& file, F&& action) {
     }
 }
 
-struct Arguments {
+struct SpecimenArguments {
     std::string deck;
     std::string in;
     std::string out;
@@ -79,7 +79,7 @@ struct Arguments {
     int threads = 0;
 };
 
-void add_make(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& chosen) {
+void add_make(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Command& chosen) {
     auto* command = group.add_subcommand("make", "make a specimen by a recipe and store it (.h5)");
     command->add_option("out", a->out, "file to write (.h5)")->required();
     command->add_option("--deck", a->deck, "deck whose \"specimen\" section is the recipe");
@@ -121,7 +121,7 @@ void add_make(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& cho
     });
 }
 
-void add_info(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& chosen) {
+void add_info(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Command& chosen) {
     auto* command = group.add_subcommand("info", "statistics of a stored specimen");
     command->add_option("file", a->in, "specimen (.h5)")->required();
     command->callback([a, &chosen] {
@@ -132,7 +132,7 @@ void add_info(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& cho
     });
 }
 
-void add_export(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& chosen) {
+void add_export(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Command& chosen) {
     auto* command = group.add_subcommand("export", "write a stored specimen as x,y,z,r,group lines (m)");
     command->add_option("file", a->in, "specimen (.h5)")->required();
     command->add_option("out", a->out, "file to write (.csv)")->required();
@@ -144,7 +144,7 @@ void add_export(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& c
     });
 }
 
-void add_import(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& chosen) {
+void add_import(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Command& chosen) {
     auto* command =
         group.add_subcommand("import", "read spheres from .csv/.txt/.xyzr (x y z r), Kratos .mdpa or GiD .msh and store them (.h5)");
     command->add_option("file", a->in, "file to read")->required();
@@ -176,7 +176,7 @@ void add_import(CLI::App& group, const std::shared_ptr<Arguments>& a, Command& c
 void add_specimen(CLI::App& app, Command& chosen) {
     auto* group = app.add_subcommand("specimen", "make, look at, export and import specimens");
     group->require_subcommand(1);
-    const auto a = std::make_shared<Arguments>();
+    const auto a = std::make_shared<SpecimenArguments>();
     add_make(*group, a, chosen);
     add_info(*group, a, chosen);
     add_export(*group, a, chosen);

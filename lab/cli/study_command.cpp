@@ -13,11 +13,11 @@ namespace proveta {
 
 namespace {
 
-struct Arguments : RunArguments {
+struct StudyArguments : RunArguments {
     StudyRequest request;
 };
 
-int carry_out_study(const Arguments& a, const char* name, const std::string& typed) {
+int carry_out_study(const StudyArguments& a, const char* name, const std::string& typed) {
     use_threads(a.threads);
     StudyRequest request = a.request;
     request.settings = a.settings;
@@ -36,7 +36,7 @@ void add_study(CLI::App& app, const std::string& typed, Command& chosen) {
         app.add_subcommand("study", "one test at several loading rates, time steps or numbers of spheres, and where its results go");
     group->require_subcommand(1);
     const auto add = [&](StudyKind kind, const char* name, const char* about, const char* values, int seeds) {
-        auto a = std::make_shared<Arguments>();
+        auto a = std::make_shared<StudyArguments>();
         a->request.kind = kind;
         a->request.seeds = seeds;
         auto* command = group->add_subcommand(name, about);

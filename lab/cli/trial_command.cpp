@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct TrialArguments {
     std::string folder;
     std::string job;
     std::string list;
@@ -40,7 +40,7 @@ std::vector<fs::path> listed(const std::string& file) {
     return out;
 }
 
-int carry_out_trials(const Arguments& a) {
+int carry_out_trials(const TrialArguments& a) {
     use_threads(a.threads);
     if (a.folder.empty() == a.list.empty()) {
         throw input::InputError(
@@ -67,7 +67,7 @@ int carry_out_trials(const Arguments& a) {
 } // namespace
 
 void add_trial(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<TrialArguments>();
     auto* command =
         app.add_subcommand("trial", "carry out planned trials of a sweep or a calibration; jobs that have a result stay as they are");
     command->add_option("folder", a->folder, "folder of a trial");

@@ -18,14 +18,14 @@ namespace proveta {
 
 namespace {
 
-struct Arguments {
+struct VerifyArguments {
     std::vector<std::string> names;
     bool all = false;
     bool list = false;
     std::string out;
 };
 
-std::vector<const verification::Case*> chosen_cases(const Arguments& a) {
+std::vector<const verification::Case*> chosen_cases(const VerifyArguments& a) {
     std::vector<std::string> known;
     for (const auto& c : verification::cases()) {
         known.push_back(c.name);
@@ -51,7 +51,7 @@ std::vector<const verification::Case*> chosen_cases(const Arguments& a) {
     return out;
 }
 
-int verify(const Arguments& a) {
+int verify(const VerifyArguments& a) {
     if (a.list) {
         for (const auto& c : verification::cases()) {
             fmt::print("{:<24} {:<10} {}{}\n", c.name, c.section, c.about, c.is_long ? " (long)" : "");
@@ -90,7 +90,7 @@ int verify(const Arguments& a) {
 } // namespace
 
 void add_verify(CLI::App& app, Command& chosen) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<VerifyArguments>();
     auto* command = app.add_subcommand("verify", "compute cases with known answers and compare");
     command->add_option("cases", a->names, "cases to compute (default: all but the long ones)");
     command->add_flag("--all", a->all, "the long cases too");

@@ -7,17 +7,17 @@ namespace proveta {
 
 namespace {
 
-constexpr double eta_fast = 0.15;         // kinetic over elastic energy 0.2 %
-constexpr double eta_slow = 0.015;        // the error of the peak is about as large
-constexpr double first_speed = 0.1;       // strain per crossing at the start, over the strain at first damage
-constexpr double damage_low = 0.001;      // damage ratio at which the speed begins to fall
-constexpr double damage_high = 0.015;     // and at which it is lowest; up to the peak it stays at 0.02 to 0.03
-constexpr double memory = 0.08;           // of the work so far, over which the damage ratio is taken
-constexpr double most_kinetic = 0.005;    // half of what the verdict allows, over the elastic energy
-constexpr double most_unbalanced = 0.005; // the same
-constexpr double most_imbalance = 0.01;   // the same, of the platens' forces
-constexpr double lowest = 0.5;            // of eta_slow: failure itself may not bring the test to a halt
-constexpr double most_gain = 0.1;         // of the strain per crossing: stress differences of 1.2 %
+constexpr double eta_fast = 0.15;        // kinetic over elastic energy 0.2 %
+constexpr double eta_slow = 0.015;       // the error of the peak is about as large
+constexpr double first_speed = 0.1;      // strain per crossing at the start, over the strain at first damage
+constexpr double damage_low = 0.001;     // damage ratio at which the speed begins to fall
+constexpr double damage_high = 0.015;    // and at which it is lowest; up to the peak it stays at 0.02 to 0.03
+constexpr double damage_memory = 0.08;   // of the work so far, over which the damage ratio is taken
+constexpr double aim_kinetic = 0.005;    // half of what the verdict allows, over the elastic energy
+constexpr double aim_unbalanced = 0.005; // the same
+constexpr double aim_imbalance = 0.01;   // the same, of the platens' forces
+constexpr double lowest = 0.5;           // of eta_slow: failure itself may not bring the test to a halt
+constexpr double most_gain = 0.1;        // of the strain per crossing: stress differences of 1.2 %
 
 } // namespace
 
@@ -30,7 +30,7 @@ RateControl::RateControl(const RateScale& scale, double pace) : scale_(scale), p
 void RateControl::observe(const RateReading& r) {
     strain_ = std::max(strain_, r.strain);
     const double more_work = std::max(r.work - work_, 0.0);
-    const double keep = r.work > 0.0 ? std::exp(-more_work / (memory * r.work)) : 1.0;
+    const double keep = r.work > 0.0 ? std::exp(-more_work / (damage_memory * r.work)) : 1.0;
     recent_work_ = keep * recent_work_ + more_work;
     recent_damage_ = keep * recent_damage_ + std::max(r.damage - damage_, 0.0);
     work_ = r.work;
@@ -48,8 +48,8 @@ void RateControl::observe(const RateReading& r) {
     const double base = slow_from_ > 0.0 ? slow_from_ : strain_;
     if (strain_ > 0.5 * scale_.first_damage) { // at the start nothing is stored yet, and nothing can break
         const auto limit = [&](double found, double allowed) { return found > allowed ? allowed / found : 1.0; };
-        share *= std::sqrt(limit(r.kinetic, most_kinetic * r.elastic)) * limit(r.unbalanced, most_unbalanced) *
-                 limit(r.imbalance, most_imbalance);
+        share *=
+            std::sqrt(limit(r.kinetic, aim_kinetic * r.elastic)) * limit(r.unbalanced, aim_unbalanced) * limit(r.imbalance, aim_imbalance);
     }
     share = std::max(share, lowest * eta_slow / eta_fast);
     aim_ = pace_ * share * std::max(eta_fast * base, first_speed * scale_.first_damage);

@@ -13,7 +13,7 @@ namespace {
 // loop keeps a phase margin of some 75 degrees, the integral, a tenth of it per crossing, costs 15 of them.
 constexpr double proportional = 0.4;
 constexpr double integral = 0.04;
-constexpr double memory = 2.0; // crossings over which the speed is averaged that the clock goes by
+constexpr double clock_memory = 2.0; // crossings over which the speed is averaged that the clock goes by
 
 constexpr double slow = 0.01; // of the strain, per crossing
 constexpr double girth_gain = 0.3;
@@ -42,7 +42,7 @@ Drive StressServo::drive(const BenchView& bench) {
     }
     clock_ += pace * dt;
     const double speed = given * bench.press.length;
-    speed_ += (speed - speed_) * std::min(1.0, dt / (memory * crossing));
+    speed_ += (speed - speed_) * std::min(1.0, dt / (clock_memory * crossing));
     return {speed, p};
 }
 

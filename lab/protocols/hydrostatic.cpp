@@ -14,7 +14,7 @@ namespace proveta {
 namespace {
 
 constexpr double crush_offset = 0.0002;
-constexpr double crossings = 150.0; // of a wave, in the elastic range; the clock slows down where the specimen yields
+constexpr double ramp_crossings = 150.0; // of a wave, in the elastic range; the clock slows down where the specimen yields
 
 class Hydrostatic : public Protocol {
   public:
@@ -65,7 +65,7 @@ class Hydrostatic : public Protocol {
     }
 
     [[nodiscard]] std::vector<Stage> stages(const BenchView& bench, double pace) const override {
-        const double ramp = (ramp_.word.empty() ? ramp_.number : crossings * bench.crossing()) / pace;
+        const double ramp = (ramp_.word.empty() ? ramp_.number : ramp_crossings * bench.crossing()) / pace;
         const double start = 0.1 * ramp;
         // Steady after a tenth of the time: the integral of a smooth start, so that the pressure itself starts without a kink.
         const auto pressure = [p = pressure_, ramp, start](double time) {

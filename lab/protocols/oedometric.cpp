@@ -14,7 +14,7 @@ namespace proveta {
 namespace {
 
 constexpr double yield_offset = 0.0002;
-constexpr double capping = 0.2; // of a radius: the specimen is cast or pressed into its ring
+constexpr double ring_capping = 0.2; // of a radius: the specimen is cast or pressed into its ring
 
 class Oedometric : public Protocol {
   public:
@@ -71,7 +71,7 @@ class Oedometric : public Protocol {
             }
             press.side_area = pi * body.shape.diameter * body.shape.height;
             // Where the ring stands off, nothing touches it at the start.
-            press.platens.push_back(make_platen(body.spheres, ring_face(radius), -radius, ring_friction_, press.side_area, capping));
+            press.platens.push_back(make_platen(body.spheres, ring_face(radius), -radius, ring_friction_, press.side_area, ring_capping));
         } else if (body.shape.kind == ShapeKind::prism) {
             press.side_area = 2.0 * (body.shape.width + body.shape.depth) * body.shape.height;
             for (const bool across_x : {true, false}) {
@@ -79,7 +79,7 @@ class Oedometric : public Protocol {
                     const Face face{across_x ? Vec3::UnitX() : Vec3::UnitY(), inward, 0.0, Face::boundless};
                     const double half = 0.5 * (across_x ? body.shape.width : body.shape.depth);
                     const double area = (across_x ? body.shape.depth : body.shape.width) * body.shape.height;
-                    press.platens.push_back(make_platen(body.spheres, face, -inward * half, ring_friction_, area, capping));
+                    press.platens.push_back(make_platen(body.spheres, face, -inward * half, ring_friction_, area, ring_capping));
                 }
             }
         } else {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
+#include "lab/clock.hpp"
 #include "lab/fields.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
@@ -23,9 +23,6 @@ namespace proveta {
 namespace {
 
 using input::Json;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 Json manifest_of(const Scene& scene, const RunOptions& options, const std::string& status, const std::string& started) {
     return {{"proveta_scene_manifest", 1},

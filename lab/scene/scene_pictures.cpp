@@ -12,7 +12,7 @@ namespace proveta {
 namespace {
 
 // The plane of a picture and what it shows.
-struct View {
+struct SliceView {
     int right, up, out;
     double middle; // of the third component, m
     double sense;  // +1: `up` grows upwards
@@ -23,7 +23,7 @@ struct View {
 };
 
 // Where the edges of a polygon go through the plane.
-void cut_polygon(const std::vector<Vec3>& corners, const View& view, std::vector<report::PictureLine>& lines) {
+void cut_polygon(const std::vector<Vec3>& corners, const SliceView& view, std::vector<report::PictureLine>& lines) {
     std::vector<Vec3> through;
     const std::size_t n = corners.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -40,7 +40,7 @@ void cut_polygon(const std::vector<Vec3>& corners, const View& view, std::vector
     }
 }
 
-void cut_face(const Surface& surface, std::size_t face, const View& view, std::vector<report::PictureLine>& lines) {
+void cut_face(const Surface& surface, std::size_t face, const SliceView& view, std::vector<report::PictureLine>& lines) {
     const SurfaceMesh& mesh = surface.geometry.mesh;
     std::vector<Vec3> corners;
     for (std::size_t k = 0; k < mesh.corners(face); ++k) {
@@ -50,7 +50,7 @@ void cut_face(const Surface& surface, std::size_t face, const View& view, std::v
 }
 
 // The same of a skin as it is.
-void cut_skin(const Skin& skin, const View& view, std::vector<report::PictureLine>& lines) {
+void cut_skin(const Skin& skin, const SliceView& view, std::vector<report::PictureLine>& lines) {
     for (std::size_t t = 0; t < skin.triangles(); ++t) {
         const auto v = skin.geometry().corners(static_cast<std::uint32_t>(t));
         cut_polygon({v.begin(), v.end()}, view, lines);
@@ -151,7 +151,7 @@ std::vector<report::Picture> scene_slices(const Model& m, const Vec3& gravity, c
         m.spheres.size() == 0 ? 1.0 : static_cast<double>(*std::max_element(m.spheres.id.begin(), m.spheres.id.end())) + 1.0;
     std::vector<report::Picture> out;
     for (const int side : {(down + 1) % 3, (down + 2) % 3}) {
-        View view{side, down, 3 - side - down, stage.center()[3 - side - down], sense, stage};
+        SliceView view{side, down, 3 - side - down, stage.center()[3 - side - down], sense, stage};
         report::Picture p;
         for (const auto& surface : m.walls.surfaces) {
             for (std::size_t f = 0; f < surface.geometry.mesh.faces(); ++f) {

@@ -15,11 +15,11 @@ namespace {
 constexpr std::size_t most_named = 10; // curves of a plot that a key can still tell apart
 
 // A result in the unit that suits the largest of several values.
-struct Shown {
+struct InUnit {
     std::string unit;
     double factor = 1.0;
 
-    Shown(const report::Scalar& scalar, const std::vector<double>& values) : unit(scalar.unit) {
+    InUnit(const report::Scalar& scalar, const std::vector<double>& values) : unit(scalar.unit) {
         report::Scalar largest = scalar;
         largest.value = 0.0;
         for (const double v : values) {
@@ -63,7 +63,7 @@ report::TextTable results_table(const SeriesResults& r) {
         if (values.empty()) {
             continue; // every test's own report says so
         }
-        const Shown shown(scalar, values);
+        const InUnit shown(scalar, values);
         std::vector<std::string> row{scalar.title, shown.unit};
         for (const auto& m : r.members) {
             const auto value = m.value(scalar.name);
@@ -91,7 +91,7 @@ report::TextTable statistics_table(const SeedGroup& group) {
             continue;
         }
         const auto& spread = sample.spread;
-        const Shown shown(scalar, {spread ? std::max(std::fabs(spread->least), std::fabs(spread->most)) : sample.mean});
+        const InUnit shown(scalar, {spread ? std::max(std::fabs(spread->least), std::fabs(spread->most)) : sample.mean});
         std::vector<std::string> row{scalar.title, shown.unit, std::to_string(sample.n), shown.text(sample.mean)};
         if (spread) {
             row.insert(row.end(),
@@ -168,7 +168,7 @@ std::vector<report::KeyFigure> first_figures(const SeriesResults& r) {
                 std::find_if(group.statistics.begin(), group.statistics.end(), [&](const auto& s) { return s.scalar.name == name; });
             if (at != group.statistics.end() && at->scalar.value && at->sample.spread && out.size() < most) {
                 report::KeyFigure figure = report::key_figure(at->scalar);
-                const Shown shown(at->scalar, {at->sample.mean});
+                const InUnit shown(at->scalar, {at->sample.mean});
                 figure.note =
                     fmt::format("{}: mean of {}, +- {:.2g} (95 %)", group.name, at->sample.n, at->sample.spread->half_width * shown.factor);
                 out.push_back(std::move(figure));

@@ -10,7 +10,7 @@ namespace proveta {
 namespace {
 
 // The column of a name, whether its heading has the unit with it or not ("axial_stress_Pa"); null when there is none.
-const report::Column* column_of(const report::Table& curve, const std::string& name) {
+const report::Column* find_column(const report::Table& curve, const std::string& name) {
     const report::Column* best = nullptr;
     for (const auto& column : curve.columns) {
         if (column.name == name) {
@@ -49,8 +49,8 @@ void read_curves(TestCurves& curves, const PlotSpec& spec, const SweepTable& tab
                 continue;
             }
             const report::Table read = job_curve(folders.trial(trial.key) / job.name);
-            const report::Column* x = column_of(read, spec.curves.front().x);
-            const report::Column* y = column_of(read, spec.curves.front().y);
+            const report::Column* x = find_column(read, spec.curves.front().x);
+            const report::Column* y = find_column(read, spec.curves.front().y);
             good = x != nullptr && y != nullptr;
             if (good) {
                 curves.x = x->heading();

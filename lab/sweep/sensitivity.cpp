@@ -12,7 +12,7 @@ namespace proveta {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // The parameter that alone changes between two points of a trajectory; empty from one trajectory to the next.
 std::optional<std::size_t> changed(const Point& a, const Point& b) {
@@ -28,7 +28,7 @@ std::optional<std::size_t> changed(const Point& a, const Point& b) {
     return out;
 }
 
-std::vector<double> column(const std::vector<Point>& points, std::size_t k) {
+std::vector<double> coordinates(const std::vector<Point>& points, std::size_t k) {
     std::vector<double> out;
     for (const auto& point : points) {
         out.push_back(point[k]);
@@ -106,7 +106,7 @@ std::vector<Effects> elementary_effects(const std::vector<Point>& points, const 
         for (double& e : of_parameter) {
             e = std::fabs(e);
         }
-        out.push_back({all.n, all.mean, sample_of(of_parameter).mean, all.spread ? all.spread->deviation : none});
+        out.push_back({all.n, all.mean, sample_of(of_parameter).mean, all.spread ? all.spread->deviation : unknown});
     }
     return out;
 }
@@ -134,7 +134,7 @@ std::optional<CurveSensitivity> curve_sensitivity(const std::vector<Point>& poin
         std::vector<double> y;
         std::vector<double> found;
         for (const auto& c : curves) {
-            y.push_back(c.x.empty() ? none : y_at(c.x, c.y, x).value_or(none));
+            y.push_back(c.x.empty() ? unknown : y_at(c.x, c.y, x).value_or(unknown));
             if (std::isfinite(y.back())) {
                 found.push_back(y.back());
             }
@@ -143,8 +143,8 @@ std::optional<CurveSensitivity> curve_sensitivity(const std::vector<Point>& poin
         out.mean.push_back(sample_of(found).mean);
         const auto effects = trajectories ? elementary_effects(points, y) : std::vector<Effects>(parameters);
         for (std::size_t k = 0; k < parameters; ++k) {
-            const double s = !trajectories       ? rank_correlation(column(points, k), y).value_or(none)
-                             : effects[k].n == 0 ? none
+            const double s = !trajectories       ? rank_correlation(coordinates(points, k), y).value_or(unknown)
+                             : effects[k].n == 0 ? unknown
                                                  : effects[k].mu_star;
             out.s[k].push_back(s);
             largest = std::max(largest, std::isfinite(s) ? s : 0.0);

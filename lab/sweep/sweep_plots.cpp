@@ -9,7 +9,6 @@ namespace proveta {
 
 namespace {
 
-constexpr const char* palette[] = {"#1f4e79", "#c0392b", "#1e7b46", "#b9770e", "#7d3c98", "#0e8a93", "#111111", "#d35f9e"};
 constexpr std::size_t most_curves = 100; // of a plot
 constexpr std::size_t most_lines = 8;    // of a plot that a key tells apart
 
@@ -97,7 +96,8 @@ report::Plot along_curve_plot(const Sweep& sweep, const TestCurves& curves) {
         }
     }
     for (std::size_t k = 0; k < std::min(s.s.size(), most_lines); ++k) {
-        report::Curve line{sweep.space[k].name, {}, {}, palette[k % std::size(palette)]};
+        report::Curve line{sweep.space[k].name, {}, {}};
+        tell_apart(line, k);
         for (std::size_t i = 0; i < x.size(); ++i) {
             if (std::isfinite(s.s[k][i])) {
                 line.x.push_back(x[i]);
@@ -124,8 +124,8 @@ report::Plot influence_plot(const Sweep& sweep, const SweepOutcome& o, const std
         for (std::size_t r = 0; r < order.size(); ++r) {
             const double value = o.sensitivities[columns[j]][order[r]].value;
             const double y = -1.0 - static_cast<double>(r) + 0.7 * (0.5 - (static_cast<double>(j) + 0.5) / m);
-            report::Curve bar{
-                r == 0 ? o.table.results[columns[j]].result : "", {0.0, std::isfinite(value) ? value : 0.0}, {y, y}, palette[j]};
+            report::Curve bar{r == 0 ? o.table.results[columns[j]].result : "", {0.0, std::isfinite(value) ? value : 0.0}, {y, y}};
+            tell_apart(bar, j);
             bar.width = 22.0 / m;
             plot.curves.push_back(std::move(bar));
         }

@@ -16,7 +16,7 @@ namespace proveta {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 std::string with_unit(const std::string& name, const std::string& unit) { return report::Column{name, unit, ""}.heading(); }
 
@@ -27,11 +27,11 @@ double deviation_of(const TrialResult& trial, const std::string& test, const std
     std::vector<double> values;
     for (const auto& job : trial.jobs) {
         if (job.test == test) {
-            values.push_back(job.value(result).value_or(none));
+            values.push_back(job.value(result).value_or(no_value));
         }
     }
     const Sample sample = sample_of(values);
-    return sample.spread ? sample.spread->deviation : none;
+    return sample.spread ? sample.spread->deviation : no_value;
 }
 
 // Names of all results of a test, with their units.
@@ -86,9 +86,9 @@ SweepTable make_table(const Sweep& sweep, std::vector<TrialResult> trials) {
             ResultColumn column{test.name, name, unit, {}, {}};
             for (const auto& trial : out.trials) {
                 const auto mean = trial.mean(test.name, name);
-                column.mean.push_back(mean.value_or(none));
+                column.mean.push_back(mean.value_or(no_value));
                 if (test.seeds.size() > 1) {
-                    column.deviation.push_back(mean ? deviation_of(trial, test.name, name) : none);
+                    column.deviation.push_back(mean ? deviation_of(trial, test.name, name) : no_value);
                 }
             }
             out.results.push_back(std::move(column));
@@ -214,7 +214,7 @@ std::vector<std::vector<Sensitivity>> sensitivities(const Sweep& sweep, const Sw
         const auto finite = std::count_if(column.mean.begin(), column.mean.end(), [](double y) { return std::isfinite(y); });
         for (std::size_t k = 0; k < parameters; ++k) {
             if (sweep.trajectories()) {
-                row[k] = {effects[k].n, effects[k].n > 0 && largest > 0.0 ? effects[k].mu_star / largest : none, 0.0, effects[k]};
+                row[k] = {effects[k].n, effects[k].n > 0 && largest > 0.0 ? effects[k].mu_star / largest : no_value, 0.0, effects[k]};
                 continue;
             }
             std::vector<double> x;
@@ -222,7 +222,7 @@ std::vector<std::vector<Sensitivity>> sensitivities(const Sweep& sweep, const Sw
                 x.push_back(point[k]);
             }
             const auto n = static_cast<std::size_t>(finite);
-            row[k] = {n, rank_correlation(x, column.mean).value_or(none), significant_correlation(n), {}};
+            row[k] = {n, rank_correlation(x, column.mean).value_or(no_value), significant_correlation(n), {}};
         }
         out.push_back(std::move(row));
     }

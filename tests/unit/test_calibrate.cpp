@@ -26,7 +26,7 @@ std::string calibration(const std::string& parameters, const std::string& target
 const std::string tau = R"({"path": "material.tau_f", "low": "10 MPa", "high": "20 MPa"})";
 const std::string strength = R"({"test": "ucs", "result": "strength", "value": "30 MPa"})";
 
-input::Problems problems_of(const std::string& file) {
+input::Problems problems_in(const std::string& file) {
     try {
         make_targets(read_calibration(file));
     } catch (const input::InputError& e) {
@@ -36,7 +36,7 @@ input::Problems problems_of(const std::string& file) {
 }
 
 // Deviations from targets that depend on the parameters as strengths do on a card's: powers and products, and scatter that no model knows.
-Sample pretend(const std::vector<double>& u, double scatter) {
+SearchPoint pretend(const std::vector<double>& u, double scatter) {
     const std::vector<double> truth{0.3, 0.7, 0.45, 0.6};
     const auto strengths = [](const std::vector<double>& p) {
         return std::vector<double>{std::pow(1 + p[0], 1.5) * (1 + 0.3 * p[2]), std::exp(0.8 * p[1]) + 0.2 * p[0] * p[3],
@@ -44,7 +44,7 @@ Sample pretend(const std::vector<double>& u, double scatter) {
     };
     const auto here = strengths(u);
     const auto wanted = strengths(truth);
-    Sample s{u, {}, true};
+    SearchPoint s{u, {}, true};
     for (std::size_t k = 0; k < here.size(); ++k) {
         // The same point gives the same scatter, as the same specimen and card do.
         const double noise = std::sin(1e4 * (u[0] + 2 * u[1] + 3 * u[2] + 5 * u[3]) + static_cast<double>(k));
@@ -53,8 +53,8 @@ Sample pretend(const std::vector<double>& u, double scatter) {
     return s;
 }
 
-std::vector<Sample> searched(const std::string& method, std::size_t trials, double scatter, std::uint64_t seed) {
-    std::vector<Sample> samples;
+std::vector<SearchPoint> searched(const std::string& method, std::size_t trials, double scatter, std::uint64_t seed) {
+    std::vector<SearchPoint> samples;
     while (samples.size() < trials) {
         for (const auto& u : propose(samples, 4, 4, method, seed + samples.size())) {
             samples.push_back(pretend(u, scatter));
@@ -68,7 +68,7 @@ std::vector<Sample> searched(const std::string& method, std::size_t trials, doub
 TEST_CASE("calibration: a search finds what made its targets from any start, and repeats itself") {
     for (const std::uint64_t seed : {1u, 20u, 300u}) {
         const auto samples = searched("mixed", 60, 0.01, seed);
-        const Sample& best = samples[best_sample(samples)];
+        const SearchPoint& best = samples[best_sample(samples)];
         CHECK(chebyshev(best.u, {0.3, 0.7, 0.45, 0.6}) < 0.08);
         CHECK(best.score() < 0.5); // scatter alone gives 0.14
         const auto again = searched("mixed", 60, 0.01, seed);
@@ -82,7 +82,7 @@ TEST_CASE("calibration: a search finds what made its targets from any start, and
 }
 
 TEST_CASE("calibration: failed trials are no end, and no model is told by them") {
-    std::vector<Sample> samples;
+    std::vector<SearchPoint> samples;
     while (samples.size() < 48) {
         for (const auto& u : propose(samples, 4, 4, "mixed", 7 + samples.size())) {
             samples.push_back(pretend(u, 0.0));
@@ -91,7 +91,7 @@ TEST_CASE("calibration: failed trials are no end, and no model is told by them")
             }
         }
     }
-    const Sample& best = samples[best_sample(samples)];
+    const SearchPoint& best = samples[best_sample(samples)];
     CHECK(best.complete);
     CHECK(chebyshev(best.u, {0.3, 0.7, 0.45, 0.6}) < 0.08);
     CHECK(best_sample({{{0.0}, {1.0}, false}}) == 1);
@@ -138,7 +138,7 @@ TEST_CASE("calibration: multiples keep an order, scales and integers are kept") 
 
 TEST_CASE("calibration: every problem at once, at its place") {
     const TemporaryFolder folder;
-    const auto problems = problems_of(folder.file(
+    const auto problems = problems_in(folder.file(
         "c.json",
         calibration(R"({"path": "material.tau", "low": 2, "high": 1}, {"path": "material.mu_s", "low": 0, "high": 1, "scale": "log"})",
                     R"({"test": "ucss", "result": "strength", "value": "30 MPa"}, {"test": "ucs"}, {"test": "ucs", "curve": "x.csv"},
@@ -155,12 +155,12 @@ TEST_CASE("calibration: every problem at once, at its place") {
     }
     // Bounds that make a deck that cannot be: the second corner of the envelope below the first.
     const auto bounds =
-        problems_of(folder.file("b.json", calibration(R"({"path": "material.lcs.0", "low": "20 MPa", "high": "60 MPa"})", strength)));
+        problems_in(folder.file("b.json", calibration(R"({"path": "material.lcs.0", "low": "20 MPa", "high": "60 MPa"})", strength)));
     REQUIRE(bounds.size() == 1);
     CHECK(bounds[0].path == "/parameters/0/high");
-    CHECK(problems_of(folder.file("n.json", calibration("", strength))).at(0).path == "/parameters");
-    CHECK(problems_of(folder.file("t.json", R"({"tests": [], "parameters": []})")).at(0).path == "/tests");
-    CHECK(problems_of(folder.file("m.json", calibration(tau, R"({"test": "ucs", "curve": "none.csv", "y": "total_stress"})"))).at(0).path ==
+    CHECK(problems_in(folder.file("n.json", calibration("", strength))).at(0).path == "/parameters");
+    CHECK(problems_in(folder.file("t.json", R"({"tests": [], "parameters": []})")).at(0).path == "/tests");
+    CHECK(problems_in(folder.file("m.json", calibration(tau, R"({"test": "ucs", "curve": "none.csv", "y": "total_stress"})"))).at(0).path ==
           "/targets/0/curve");
 }
 

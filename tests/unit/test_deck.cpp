@@ -5,21 +5,13 @@
 #include <algorithm>
 
 #include "lab/deck.hpp"
+#include "tests/support.hpp"
 
 using namespace proveta;
+using namespace proveta::testing;
 using input::Json;
 
 namespace {
-
-// Problems of a deck given as text.
-input::Problems problems_of(const std::string& text) {
-    try {
-        read_deck(Json::parse(text), "deck.json");
-    } catch (const input::InputError& e) {
-        return e.problems;
-    }
-    return {};
-}
 
 bool has(const input::Problems& problems, const std::string& path) {
     return std::any_of(problems.begin(), problems.end(), [&](const auto& p) { return p.path == path; });

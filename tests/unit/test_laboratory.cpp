@@ -8,19 +8,12 @@
 #include "lab/deck.hpp"
 #include "lab/derived.hpp"
 #include "lab/protocols/registry.hpp"
+#include "tests/support.hpp"
 
 using namespace proveta;
+using namespace proveta::testing;
 
 namespace {
-
-input::Problems problems_of(const std::string& text) {
-    try {
-        read_deck(input::Json::parse(text), "deck.json");
-    } catch (const input::InputError& e) {
-        return e.problems;
-    }
-    return {};
-}
 
 bool refuses(const std::string& text, const std::string& path, const std::string& saying) {
     for (const auto& p : problems_of(text)) {

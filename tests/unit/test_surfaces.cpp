@@ -30,7 +30,7 @@ std::string stl(const SurfaceMesh& mesh, const std::string& more = "") {
     return out + more + "endsolid s\n";
 }
 
-std::string message(const std::string& file) {
+std::string refusal_of(const std::string& file) {
     try {
         import_surface(file, 1.0);
     } catch (const std::runtime_error& e) {
@@ -114,12 +114,12 @@ TEST_CASE("surfaces are read from files of others and mended on the way") {
 
 TEST_CASE("files that hold no surface are refused with the reason") {
     const TemporaryFolder folder;
-    CHECK(message(folder.file("e.stl", "solid s\nendsolid s\n")).find("holds no faces") != std::string::npos);
-    CHECK(message(folder.file("n.stl", "\n")).find("holds no faces") != std::string::npos);
-    CHECK(message(folder.file("x.obj", "this is no surface\n")).find("holds no faces") != std::string::npos);
-    CHECK(message(folder.file("z.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")).find("no face has an area") != std::string::npos);
-    CHECK(message("nowhere.stl").find("no such file") != std::string::npos);
-    CHECK(message(folder.file("s.step", "x")).find(".stl") != std::string::npos);
+    CHECK(refusal_of(folder.file("e.stl", "solid s\nendsolid s\n")).find("holds no faces") != std::string::npos);
+    CHECK(refusal_of(folder.file("n.stl", "\n")).find("holds no faces") != std::string::npos);
+    CHECK(refusal_of(folder.file("x.obj", "this is no surface\n")).find("holds no faces") != std::string::npos);
+    CHECK(refusal_of(folder.file("z.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")).find("no face has an area") != std::string::npos);
+    CHECK(refusal_of("nowhere.stl").find("no such file") != std::string::npos);
+    CHECK(refusal_of(folder.file("s.step", "x")).find(".stl") != std::string::npos);
 }
 
 TEST_CASE("STL files are read as text and as bytes, whatever their title is") {
@@ -140,10 +140,10 @@ TEST_CASE("STL files are read as text and as bytes, whatever their title is") {
     for (const char* title : {"a title", "solid like a text"}) {
         CHECK(import_surface(folder.file("b.stl", bytes(title, 1, triangle)), 1.0).mesh.area() == Approx(0.5));
     }
-    CHECK(message(folder.file("m.stl", bytes("a title", 4000000000U, triangle))).find("4000000000 faces") != std::string::npos);
-    CHECK(message(folder.file("v.stl", "solid\nvertex 0 0 0\nvertex 1 zero 0\n")).find("vertex 2") != std::string::npos);
-    CHECK(message(folder.file("t.stl", "solid\nvertex 0 0 0\nvertex 1 0 0\n")).find("do not make triangles") != std::string::npos);
-    CHECK(message(folder.file("n.stl", "solid\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\n")).find("point 3") != std::string::npos);
+    CHECK(refusal_of(folder.file("m.stl", bytes("a title", 4000000000U, triangle))).find("4000000000 faces") != std::string::npos);
+    CHECK(refusal_of(folder.file("v.stl", "solid\nvertex 0 0 0\nvertex 1 zero 0\n")).find("vertex 2") != std::string::npos);
+    CHECK(refusal_of(folder.file("t.stl", "solid\nvertex 0 0 0\nvertex 1 0 0\n")).find("do not make triangles") != std::string::npos);
+    CHECK(refusal_of(folder.file("n.stl", "solid\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 nan 0\n")).find("point 3") != std::string::npos);
 }
 
 TEST_CASE("OBJ files: vertices from the end, textures, lines that go on, vertices that are not there") {
@@ -152,9 +152,9 @@ TEST_CASE("OBJ files: vertices from the end, textures, lines that go on, vertice
     CHECK(import_surface(folder.file("n.obj", points + "f -4 -3 -2 -1\n"), 1.0).mesh.area() == Approx(1.0));
     CHECK(import_surface(folder.file("t.obj", points + "f 1/2/3 2//1 \\\n 3 # and no more\n"), 1.0).mesh.area() == Approx(0.5));
     for (const char* face : {"f 1 2 5\n", "f -5 1 2\n", "f 0 1 2\n", "f one 2 3\n", "f 1 2 99999999999999999999\n"}) {
-        CHECK(message(folder.file("f.obj", points + face)).find("f.obj:5: ") != std::string::npos);
+        CHECK(refusal_of(folder.file("f.obj", points + face)).find("f.obj:5: ") != std::string::npos);
     }
-    CHECK(message(folder.file("v.obj", "v 0 0\n")).find("three coordinates") != std::string::npos);
+    CHECK(refusal_of(folder.file("v.obj", "v 0 0\n")).find("three coordinates") != std::string::npos);
 }
 
 TEST_CASE("PLY files: text and bytes of both orders, and headers that promise too much") {
@@ -185,11 +185,11 @@ TEST_CASE("PLY files: text and bytes of both orders, and headers that promise to
         const std::string file = folder.file("b.ply", head(big ? "binary_big_endian" : "binary_little_endian") + body);
         CHECK(import_surface(file, 1.0).mesh.area() == Approx(0.5));
     }
-    CHECK(message(folder.file("n.ply", head("ascii", "9000000000") + text)).find("9000000000") != std::string::npos);
-    CHECK(message(folder.file("v.ply", head("ascii") + "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 3\n")).find("a vertex of a face is 3") !=
+    CHECK(refusal_of(folder.file("n.ply", head("ascii", "9000000000") + text)).find("9000000000") != std::string::npos);
+    CHECK(refusal_of(folder.file("v.ply", head("ascii") + "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 3\n")).find("a vertex of a face is 3") !=
           std::string::npos);
-    CHECK(message(folder.file("l.ply", head("ascii") + "0 0 0 9\n1 0 0 9\n0 1 0 9\n3000000 0 1\n")).find("length of a list") !=
+    CHECK(refusal_of(folder.file("l.ply", head("ascii") + "0 0 0 9\n1 0 0 9\n0 1 0 9\n3000000 0 1\n")).find("length of a list") !=
           std::string::npos);
-    CHECK(message(folder.file("e.ply", head("ascii") + "0 0 0 9\n")).find("ends too early") != std::string::npos);
-    CHECK(message(folder.file("p.ply", "ply\nproperty float x\nend_header\n")).find("not understood") != std::string::npos);
+    CHECK(refusal_of(folder.file("e.ply", head("ascii") + "0 0 0 9\n")).find("ends too early") != std::string::npos);
+    CHECK(refusal_of(folder.file("p.ply", "ply\nproperty float x\nend_header\n")).find("not understood") != std::string::npos);
 }

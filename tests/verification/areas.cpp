@@ -10,7 +10,6 @@
 
 using namespace proveta;
 using namespace proveta::testing;
-using std::numbers::pi;
 
 TEST_CASE("areas: between and beyond the tabulated polyhedra and polygons") {
     CHECK(polyhedron_ratio(10) == Approx(0.5 * (1.65399 + 1.32503)));
@@ -33,7 +32,7 @@ TEST_CASE("areas: a trapezium between discs, equal ones as the limit") {
         CHECK(raw(0, j) == Approx(raw(j, 0)).epsilon(1e-12));
     }
     CHECK(raw_area(AreaRule::minimum_radius, s, 0, 3) == 2e-3);
-    CHECK(s.mass[3] == Approx(2500.0 * pi * 4e-6));
+    CHECK(s.mass[3] == Approx(2500.0 * std::numbers::pi * 4e-6));
     CHECK(s.inertia[3] == Approx(0.5 * s.mass[3] * 4e-6));
 }
 
@@ -65,7 +64,7 @@ TEST_CASE("laguerre: a cubic lattice in a prism has square facets and fills it")
     CHECK(l.volume_ratio == Approx(1.0).epsilon(1e-10));
     CHECK(l.unbonded_share == Approx(0.0).margin(1e-9));
     CHECK(l.facetless == 0);
-    CHECK(l.areas.weight[21] == Approx(1e-4 / (pi * 25e-6)));
+    CHECK(l.areas.weight[21] == Approx(1e-4 / (std::numbers::pi * 25e-6)));
     // Diagonal pairs share edges at most, and a pair left out is lost area.
     pairs = find_pairs(s.position, s.radius, 1.5, 0.0);
     const auto diagonal = laguerre_areas(shape, s, pairs);

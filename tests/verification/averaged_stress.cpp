@@ -38,11 +38,9 @@ TEST_CASE("averaged stress: the spheres of a pressed column carry its stress, sy
     const auto volume = tributary_volumes(m.spheres, m.bonds);
     const auto stress = sphere_stresses(m.spheres, m.bonds, m.contacts, m.walls, m.pressures, volume);
     Mat3 sum = Mat3::Zero();
-    double whole = 0.0;
     for (std::size_t k = 0; k < stress.size(); ++k) {
         REQUIRE((stress[k] - stress[k].transpose()).norm() == 0.0);
         sum += volume[k] * stress[k];
-        whole += volume[k];
     }
     // The sum over all spheres is the virial of the platens' forces: axial stress times the specimen's volume.
     const double axial = data.curve.values("axial_stress").back();

@@ -11,12 +11,11 @@
 
 using namespace proveta;
 using namespace proveta::verification;
-using std::numbers::pi;
 
 namespace {
 
 // Random numbers and planes.
-struct Random {
+struct Draw {
     std::mt19937_64 generator;
 
     double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator); }
@@ -26,13 +25,13 @@ struct Random {
         return {x, (*this)(-1.0, 1.0), 0.0};
     }
     Vec3 away(double distance) {
-        const double angle = (*this)(-pi, pi);
+        const double angle = (*this)(-std::numbers::pi, std::numbers::pi);
         return {distance * std::cos(angle), distance * std::sin(angle), 0.0};
     }
     Eigen::Isometry3d plane() {
         Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
         const Vec3 axis = (flat() + (*this)(-1.0, 1.0) * Vec3::UnitZ()).normalized();
-        t.rotate(Eigen::AngleAxisd((*this)(-pi, pi), axis));
+        t.rotate(Eigen::AngleAxisd((*this)(-std::numbers::pi, std::numbers::pi), axis));
         t.pretranslate(flat());
         return t;
     }
@@ -46,7 +45,7 @@ double triangle_area(const CircleAndTriangle& s) { return 0.5 * (s.corner[1] - s
 double longest(const CircleAndTriangle& s) {
     return std::max({(s.corner[1] - s.corner[0]).norm(), (s.corner[2] - s.corner[1]).norm(), (s.corner[0] - s.corner[2]).norm()});
 }
-double smaller(const CircleAndTriangle& s) { return std::min(triangle_area(s), pi * s.radius * s.radius); }
+double smaller(const CircleAndTriangle& s) { return std::min(triangle_area(s), std::numbers::pi * s.radius * s.radius); }
 
 // How far a point lies outside the circle or the triangle, m; not positive within both.
 double distance_outside(const CircleAndTriangle& s, const Vec3& p) {
@@ -88,16 +87,16 @@ struct Errors {
     }
 };
 
-CircleAndTriangle of_a_size(Random& random) {
-    const Vec3 a = random.flat(), b = random.flat(), c = random.flat(), centre = 1.2 * random.flat();
-    return {centre, random.power(-1.5, 0.5), {a, b, c}};
+CircleAndTriangle of_a_size(Draw& draw) {
+    const Vec3 a = draw.flat(), b = draw.flat(), c = draw.flat(), centre = 1.2 * draw.flat();
+    return {centre, draw.power(-1.5, 0.5), {a, b, c}};
 }
 
 // No less than 0.01 high: the coordinates' rounding is that of the large radius, and a share of the smallest width.
-CircleAndTriangle stout(Random& random) {
-    CircleAndTriangle s = of_a_size(random);
+CircleAndTriangle stout(Draw& draw) {
+    CircleAndTriangle s = of_a_size(draw);
     while (2.0 * triangle_area(s) < 0.01 * longest(s)) {
-        s = of_a_size(random);
+        s = of_a_size(draw);
     }
     return s;
 }
@@ -105,10 +104,10 @@ CircleAndTriangle stout(Random& random) {
 } // namespace
 
 TEST_CASE("circle and triangle: random ones in random planes, all eight cases") {
-    Random random{std::mt19937_64(1)};
+    Draw draw{std::mt19937_64(1)};
     Errors errors;
     for (int k = 0; k < 40000; ++k) {
-        errors.add(moved(random.plane(), of_a_size(random)));
+        errors.add(moved(draw.plane(), of_a_size(draw)));
     }
     errors.check();
     for (const char row : {'a', 'b', 'c', 'd', 'e', 'f', 'g', 'h', '-'}) {
@@ -118,63 +117,63 @@ TEST_CASE("circle and triangle: random ones in random planes, all eight cases") 
 }
 
 TEST_CASE("circle and triangle: circles of a 1e-4th of the triangle on its edges and corners") {
-    Random random{std::mt19937_64(2)};
+    Draw draw{std::mt19937_64(2)};
     Errors errors;
     for (int k = 0; k < 20000; ++k) {
-        CircleAndTriangle s = stout(random);
-        s.radius = random.power(-4.0, 0.0);
-        const double along = k % 2 == 0 ? 0.0 : random(0.0, 1.0);
-        s.centre = s.corner[0] + along * (s.corner[1] - s.corner[0]) + 1.5 * s.radius * random.flat();
-        errors.add(moved(random.plane(), s));
+        CircleAndTriangle s = stout(draw);
+        s.radius = draw.power(-4.0, 0.0);
+        const double along = k % 2 == 0 ? 0.0 : draw(0.0, 1.0);
+        s.centre = s.corner[0] + along * (s.corner[1] - s.corner[0]) + 1.5 * s.radius * draw.flat();
+        errors.add(moved(draw.plane(), s));
     }
     errors.check();
 }
 
 TEST_CASE("circle and triangle: circles of up to 1e4 times the triangle that pass it") {
-    Random random{std::mt19937_64(3)};
+    Draw draw{std::mt19937_64(3)};
     Errors errors;
     for (int k = 0; k < 20000; ++k) {
-        CircleAndTriangle s = stout(random);
-        s.radius = random.power(0.0, 4.0);
-        s.centre = random.away(s.radius + random(-1.0, 1.0));
-        errors.add(moved(random.plane(), s));
+        CircleAndTriangle s = stout(draw);
+        s.radius = draw.power(0.0, 4.0);
+        s.centre = draw.away(s.radius + draw(-1.0, 1.0));
+        errors.add(moved(draw.plane(), s));
     }
     errors.check();
 }
 
 TEST_CASE("circle and triangle: slivers down to a 1e-5th of their length") {
-    Random random{std::mt19937_64(4)};
+    Draw draw{std::mt19937_64(4)};
     Errors errors;
     for (int k = 0; k < 20000; ++k) {
-        CircleAndTriangle s = stout(random);
-        const double width = random.power(-3.0, 0.0); // of what is 0.01 high at least
+        CircleAndTriangle s = stout(draw);
+        const double width = draw.power(-3.0, 0.0); // of what is 0.01 high at least
         for (Vec3* p : {&s.corner[0], &s.corner[1], &s.corner[2], &s.centre}) {
             p->y() *= width;
         }
-        errors.add(moved(random.plane(), s));
+        errors.add(moved(draw.plane(), s));
     }
     errors.check();
 }
 
 TEST_CASE("circle and triangle: corners and edges on the circle, the centre on corners and edges, and hardly off them") {
-    Random random{std::mt19937_64(5)};
+    Draw draw{std::mt19937_64(5)};
     Errors errors;
     for (int k = 0; k < 40000; ++k) {
-        CircleAndTriangle s = stout(random);
+        CircleAndTriangle s = stout(draw);
         if (k % 4 == 0) {
             s.centre = s.corner[0];
         } else if (k % 4 == 1) {
-            s.centre = s.corner[0] + random(0.0, 1.0) * (s.corner[1] - s.corner[0]);
+            s.centre = s.corner[0] + draw(0.0, 1.0) * (s.corner[1] - s.corner[0]);
         } else if (k % 4 == 2) { // as far from two corners
             const Vec3 edge = s.corner[2] - s.corner[1];
-            s.centre = 0.5 * (s.corner[1] + s.corner[2]) + random(-1.0, 1.0) * Vec3(-edge.y(), edge.x(), 0.0);
+            s.centre = 0.5 * (s.corner[1] + s.corner[2]) + draw(-1.0, 1.0) * Vec3(-edge.y(), edge.x(), 0.0);
         }
         const Vec3 edge = (s.corner[2] - s.corner[1]).normalized();
         const bool touches = k % 8 < 4;
         s.radius = touches ? edge.cross(s.centre - s.corner[1]).norm() : (s.centre - s.corner[1]).norm();
-        s.radius *= 1.0 + (k % 3 - 1) * random.power(-17.0, -6.0);
+        s.radius *= 1.0 + (k % 3 - 1) * draw.power(-17.0, -6.0);
         if (s.radius > 1e-4) {
-            errors.add(k % 5 == 0 ? s : moved(random.plane(), s));
+            errors.add(k % 5 == 0 ? s : moved(draw.plane(), s));
         }
     }
     errors.check();
@@ -184,14 +183,14 @@ TEST_CASE("circle and triangle: exact positions") {
     const Vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
     const double inscribed = 1.0 - std::sqrt(0.5);
     const auto area = [&](const Vec3& centre, double radius) { return circle_triangle(centre, radius, a, b, c).area; };
-    CHECK(area({inscribed, inscribed, 0.0}, inscribed) == Approx(pi * inscribed * inscribed).epsilon(1e-14));
+    CHECK(area({inscribed, inscribed, 0.0}, inscribed) == Approx(std::numbers::pi * inscribed * inscribed).epsilon(1e-14));
     CHECK(area({0.5, 0.5, 0.0}, std::sqrt(0.5)) == Approx(0.5).epsilon(1e-14)); // all corners on the circle
-    CHECK(area(a, 0.3) == Approx(0.25 * pi * 0.09).epsilon(1e-14));
-    CHECK(area(b, 0.3) == Approx(0.125 * pi * 0.09).epsilon(1e-14));
-    CHECK(area({0.5, 0.0, 0.0}, 0.1) == Approx(0.5 * pi * 0.01).epsilon(1e-14));
-    CHECK(area({0.5, 0.5, 0.0}, 0.1) == Approx(0.5 * pi * 0.01).epsilon(1e-14));
-    CHECK(area(a, 1.0) == Approx(0.5).epsilon(1e-14));                 // the legs' ends on the circle
-    CHECK(area(a, std::sqrt(0.5)) == Approx(pi / 8.0).epsilon(1e-14)); // the hypotenuse touches it
+    CHECK(area(a, 0.3) == Approx(0.25 * std::numbers::pi * 0.09).epsilon(1e-14));
+    CHECK(area(b, 0.3) == Approx(0.125 * std::numbers::pi * 0.09).epsilon(1e-14));
+    CHECK(area({0.5, 0.0, 0.0}, 0.1) == Approx(0.5 * std::numbers::pi * 0.01).epsilon(1e-14));
+    CHECK(area({0.5, 0.5, 0.0}, 0.1) == Approx(0.5 * std::numbers::pi * 0.01).epsilon(1e-14));
+    CHECK(area(a, 1.0) == Approx(0.5).epsilon(1e-14));                               // the legs' ends on the circle
+    CHECK(area(a, std::sqrt(0.5)) == Approx(std::numbers::pi / 8.0).epsilon(1e-14)); // the hypotenuse touches it
     // From outside: a corner, an edge and nothing at all.
     CHECK(area({-1.0, 0.0, 0.0}, 1.0) == 0.0);
     CHECK(area({0.5, -0.25, 0.0}, 0.25) == 0.0);
@@ -205,19 +204,19 @@ TEST_CASE("circle and triangle: exact positions") {
 }
 
 TEST_CASE("circle and triangle: tiles of a quadrilateral add up, whichever they are") {
-    Random random{std::mt19937_64(6)};
+    Draw draw{std::mt19937_64(6)};
     double area = 0.0, moment = 0.0;
     for (int k = 0; k < 20000; ++k) {
-        const Eigen::Isometry3d t = random.plane();
+        const Eigen::Isometry3d t = draw.plane();
         // A quarter of the unit square has one corner each: convex with the origin well inside.
-        const std::array corner{Vec3(random(0.3, 1), random(0.3, 1), 0), Vec3(random(-1, -0.3), random(0.3, 1), 0),
-                                Vec3(random(-1, -0.3), random(-1, -0.3), 0), Vec3(random(0.3, 1), random(-1, -0.3), 0)};
-        const Vec3 centre = t * Vec3(1.5 * random.flat());
-        const double radius = random.power(-1.5, 0.5);
+        const std::array corner{Vec3(draw(0.3, 1), draw(0.3, 1), 0), Vec3(draw(-1, -0.3), draw(0.3, 1), 0),
+                                Vec3(draw(-1, -0.3), draw(-1, -0.3), 0), Vec3(draw(0.3, 1), draw(-1, -0.3), 0)};
+        const Vec3 centre = t * Vec3(1.5 * draw.flat());
+        const double radius = draw.power(-1.5, 0.5);
         std::array<double, 2> sum{};
         std::array<Vec3, 2> first{Vec3(0, 0, 0), Vec3(0, 0, 0)};
         for (std::size_t way = 0; way < 2; ++way) {
-            const Vec3 meet = t * Vec3(way == 0 ? Vec3(0, 0, 0) : Vec3(0.1 * random.flat()));
+            const Vec3 meet = t * Vec3(way == 0 ? Vec3(0, 0, 0) : Vec3(0.1 * draw.flat()));
             for (std::size_t e = 0; e < 4; ++e) {
                 const Piece piece = circle_triangle(centre, radius, meet, t * corner[e], t * corner[(e + 1) % 4]);
                 sum[way] += piece.area;
@@ -232,7 +231,7 @@ TEST_CASE("circle and triangle: tiles of a quadrilateral add up, whichever they 
 }
 
 TEST_CASE("circle and triangle: turned, shifted, scaled, and with the corners in any order") {
-    Random random{std::mt19937_64(7)};
+    Draw draw{std::mt19937_64(7)};
     double worst = 0.0;
     const auto compare = [&](const CircleAndTriangle& s, const Piece& known, const Piece& found) {
         worst = std::max(worst, std::fabs(found.area - known.area) / smaller(s));
@@ -241,12 +240,12 @@ TEST_CASE("circle and triangle: turned, shifted, scaled, and with the corners in
         }
     };
     for (int k = 0; k < 20000; ++k) {
-        const CircleAndTriangle s = stout(random);
+        const CircleAndTriangle s = stout(draw);
         const auto& [a, b, c] = s.corner;
         const Piece known = s.piece();
         compare(s, known, circle_triangle(s.centre, s.radius, b, c, a));
         compare(s, known, circle_triangle(s.centre, s.radius, c, b, a));
-        const Eigen::Isometry3d t = random.plane();
+        const Eigen::Isometry3d t = draw.plane();
         const Piece there = moved(t, s).piece();
         compare(s, known, {there.area, t.inverse() * there.centroid});
         const Piece large = circle_triangle(1024.0 * s.centre, 1024.0 * s.radius, 1024.0 * a, 1024.0 * b, 1024.0 * c);

@@ -6,6 +6,7 @@
 
 #include "core/model.hpp"
 #include "core/solids/solid_shapes.hpp"
+#include "tests/bodies.hpp"
 #include "tests/support.hpp"
 
 using namespace proveta;
@@ -23,12 +24,8 @@ Material grain(double friction, double restitution) {
     return m;
 }
 
-enum class Kind { tetrahedra, hexahedra, membrane };
-constexpr Kind kinds[] = {Kind::tetrahedra, Kind::hexahedra, Kind::membrane};
-constexpr Coupling both[] = {Coupling::area_distributed, Coupling::direct};
-
 // A soft block or sheet whose upper side is at z = 0, held at its foot or its rim.
-Deformable ground(Kind kind, Coupling how, const Material& surface, bool held = true, SolidLaw law = SolidLaw::neo_hookean) {
+Deformable ground(BodyKind kind, Coupling how, const Material& surface, bool held = true, SolidLaw law = SolidLaw::neo_hookean) {
     SolidMaterial m;
     m.law = law;
     m.density = 1000.0;
@@ -36,13 +33,13 @@ Deformable ground(Kind kind, Coupling how, const Material& surface, bool held = 
     m.yield_stress = 2e3;
     m.hardening = 1e5;
     SolidMesh mesh =
-        kind == Kind::membrane ? sheet_membrane(0.3, 0.3, 10, 10) : box_mesh({0.3, 0.3, 0.1}, 6, 6, 2, kind == Kind::tetrahedra);
+        kind == BodyKind::membrane ? sheet_membrane(0.3, 0.3, 10, 10) : box_mesh({0.3, 0.3, 0.1}, 6, 6, 2, kind == BodyKind::tetrahedra);
     for (auto& v : mesh.node) {
-        v.z() -= kind == Kind::membrane ? 0.0 : 0.05;
+        v.z() -= kind == BodyKind::membrane ? 0.0 : 0.05;
     }
     Solid solid("ground", std::move(mesh), m, 0.004);
     for (const auto& g : solid.mesh().groups) {
-        if (held && g.name == (kind == Kind::membrane ? "rim" : "z-")) {
+        if (held && g.name == (kind == BodyKind::membrane ? "rim" : "z-")) {
             solid.holds.push_back({g.name, g.node, {true, true, true}, -1, Vec3::Zero(), Vec3::Zero()});
         }
     }
@@ -71,13 +68,7 @@ Spheres rain(int layers, double speed) {
     return s;
 }
 
-void run(Model& model, int steps) {
-    for (int k = 0; k < steps; ++k) {
-        model.step({}, k + 1 == steps);
-    }
-}
-
-Model shower(Kind kind, Coupling how, SolidLaw law = SolidLaw::neo_hookean) {
+Model shower(BodyKind kind, Coupling how, SolidLaw law = SolidLaw::neo_hookean) {
     Numerics numerics;
     numerics.gravity = {0, 0, -9.81};
     numerics.time_step = 5e-5; // stable whatever touches
@@ -125,8 +116,8 @@ TEST_CASE("coupling: an elastic collision with a soft body keeps its energy") {
 TEST_CASE("coupling: spheres that fall on a body, the ledger closes and threads change no bit") {
     for (const auto kind : kinds) {
         for (const auto how : both) {
-            Model one = shower(kind, how, kind == Kind::hexahedra ? SolidLaw::j2 : SolidLaw::neo_hookean);
-            Model two = shower(kind, how, kind == Kind::hexahedra ? SolidLaw::j2 : SolidLaw::neo_hookean);
+            Model one = shower(kind, how, kind == BodyKind::hexahedra ? SolidLaw::j2 : SolidLaw::neo_hookean);
+            Model two = shower(kind, how, kind == BodyKind::hexahedra ? SolidLaw::j2 : SolidLaw::neo_hookean);
             one.set_threads(1);
             two.set_threads(2);
             run(one, 1000);
@@ -138,7 +129,7 @@ TEST_CASE("coupling: spheres that fall on a body, the ledger closes and threads 
             CHECK(std::fabs(l.residual()) < 5e-3 * l.initial);
             CHECK(std::fabs(l.coupling) < 2e-2 * l.initial);
             CHECK(one.walls.bodies[0].solid.stored() > 0.01 * l.initial);
-            CHECK((kind != Kind::hexahedra || l.plastic > 0.0));
+            CHECK((kind != BodyKind::hexahedra || l.plastic > 0.0));
         }
     }
 }
@@ -147,7 +138,7 @@ TEST_CASE("coupling: a model with bodies goes on from a checkpoint bit for bit")
     const testing::TemporaryFolder folder;
     const std::string file = folder.file("checkpoint.h5");
     for (const auto kind : kinds) {
-        const auto law = kind == Kind::tetrahedra ? SolidLaw::neo_hookean : SolidLaw::j2;
+        const auto law = kind == BodyKind::tetrahedra ? SolidLaw::neo_hookean : SolidLaw::j2;
         for (const int at : {700, 733}) {
             Model straight = shower(kind, Coupling::area_distributed, law);
             run(straight, at);

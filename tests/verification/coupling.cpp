@@ -22,7 +22,7 @@ SolidMesh bumpy(int kind, Dice& dice) {
 }
 
 // Puts spheres on random places of the skin.
-void scatter(Bench& b, Dice& dice, int spheres, double smallest, double largest) {
+void scatter(CouplingBench& b, Dice& dice, int spheres, double smallest, double largest) {
     const auto& g = b.body.skin.geometry();
     for (int k = 0; k < spheres; ++k) {
         const auto t = static_cast<std::uint32_t>(dice(0.0, static_cast<double>(b.body.skin.triangles())));
@@ -42,7 +42,7 @@ TEST_CASE("coupling: what spheres feel the nodes feel, forces and moments") {
         for (int kind = 0; kind < 3; ++kind) {
             for (int n = 0; n < 12; ++n) {
                 const Material m = grain(n % 2 == 0 ? ContactLaw::linear : ContactLaw::hertz, 0.5, 0.5, 0.05);
-                Bench b(bumpy(kind, dice), m, how, n % 3 == 0 ? 0.0 : 1.0);
+                CouplingBench b(bumpy(kind, dice), m, how, n % 3 == 0 ? 0.0 : 1.0);
                 scatter(b, dice, 300, 0.005, 0.1);
                 for (std::size_t k = 0; k < b.spheres.size(); ++k) {
                     b.spheres.velocity.set(k, dice.in_box(1.0));
@@ -89,7 +89,7 @@ TEST_CASE("coupling: without friction there is no torque") {
     Dice dice(2);
     for (const auto how : both) {
         for (int kind = 0; kind < 3; ++kind) {
-            Bench b(bumpy(kind, dice), grain(ContactLaw::hertz, 0.0, 1.0, 0.0), how, 0.0);
+            CouplingBench b(bumpy(kind, dice), grain(ContactLaw::hertz, 0.0, 1.0, 0.0), how, 0.0);
             scatter(b, dice, 200, 0.01, 0.1);
             for (std::size_t k = 0; k < b.spheres.size(); ++k) {
                 b.spheres.spin.set(k, dice.in_box(50.0));
@@ -108,7 +108,7 @@ TEST_CASE("coupling: a flat skin however fine is a rigid wall to the sphere") {
         for (const int cells : {1, 7, 40}) {
             // Without dashpots: those against a membrane are of the mass of its nodes, those against a wall of the sphere's alone.
             const Material m = grain(ContactLaw::hertz, 0.4, 1.0, 0.05);
-            Bench b(sheet_membrane(0.4, 0.4, cells, cells), m, how, 0.0);
+            CouplingBench b(sheet_membrane(0.4, 0.4, cells, cells), m, how, 0.0);
             Surface wall("wall", plane_surface(0.4, 0.4), m, 0.4);
             b.spheres.add({0.013, 0.024, 0.048}, 0.05, 2000.0);
             b.spheres.velocity.set(0, {0.3, 0.1, -0.2});
@@ -133,7 +133,7 @@ TEST_CASE("coupling: two faces that tilt into a valley") {
     for (const auto how : both) {
         SolidMesh mesh = sheet_membrane(0.2, 0.1, 2, 1);
         mesh.membranes = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}};
-        Bench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, 0.0);
+        CouplingBench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, 0.0);
         b.spheres.add({0.001, 0.0, 0.0}, 0.02, 2000.0);
         double last = 0.0, jump = 0.0;
         for (int n = 0; n <= 2000; ++n) {
@@ -159,7 +159,7 @@ TEST_CASE("coupling: a sphere slides over edges, ridges and corners without a ju
     for (const auto how : both) {
         for (const bool flat : {true, false}) {
             SolidMesh mesh = flat ? sheet_membrane(0.4, 0.4, 9, 7) : box_mesh({0.2, 0.2, 0.2}, 3, 3, 3, true);
-            Bench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, 1.0);
+            CouplingBench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, 1.0);
             b.spheres.add({0, 0, 0}, 0.02, 2000.0);
             const double top = flat ? 0.0 : 0.1;
             Vec3 last = force_at(b, {-0.12, -0.11, top + 0.018});
@@ -186,7 +186,7 @@ TEST_CASE("coupling: shares are those of the areas and sum to one") {
         for (auto& v : mesh.node) {
             v.z() = slope * std::fabs(v.x());
         }
-        Bench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), Coupling::area_distributed, 0.0);
+        CouplingBench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), Coupling::area_distributed, 0.0);
         const double angle = std::atan(slope), radius = dice(0.02, 0.05), overlap = 0.05 * radius;
         b.spheres.add({0, 0, 0}, radius, 2000.0);
         const Vec3 f = force_at(b, {0.0, dice(-0.05, 0.05), (radius - overlap) / std::cos(angle)});

@@ -12,7 +12,7 @@ using namespace proveta::testing;
 TEST_CASE("coupling: on one side a sphere that has crossed is pushed back") {
     for (const auto how : both) {
         for (const double side : {1.0, -1.0, 0.0}) {
-            Bench b(sheet_membrane(0.4, 0.4, 5, 5), grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, side);
+            CouplingBench b(sheet_membrane(0.4, 0.4, 5, 5), grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, side);
             b.spheres.add({0.01, 0.02, 0.001}, 0.05, 2000.0);
             for (const double z : {0.045, 0.005, -0.005}) {
                 const Vec3 f = force_at(b, {0.01, 0.02, z});
@@ -37,7 +37,7 @@ TEST_CASE("coupling: at edges and corners, sharp or not, nobody outside has cros
             }
             mesh.tetrahedra = {{0, 1, 2, 3}};
             tidy(mesh);
-            Bench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, 1.0);
+            CouplingBench b(mesh, grain(ContactLaw::linear, 0.0, 1.0, 0.0), how, 1.0);
             const auto& v = b.body.solid.position;
             const double radius = 0.03;
             b.spheres.add({0, 0, 0}, radius, 2000.0);
@@ -63,7 +63,7 @@ TEST_CASE("coupling: at edges and corners, sharp or not, nobody outside has cros
 TEST_CASE("coupling: springs go along with a body that moves and turns") {
     for (const auto how : both) {
         // The sphere sticks: it is drawn along the skin, over edges, then both turn together.
-        Bench b(box_mesh({0.2, 0.2, 0.2}, 5, 5, 5, false), grain(ContactLaw::linear, 100.0, 1.0, 0.0), how, 1.0);
+        CouplingBench b(box_mesh({0.2, 0.2, 0.2}, 5, 5, 5, false), grain(ContactLaw::linear, 100.0, 1.0, 0.0), how, 1.0);
         b.spheres.add({-0.03, -0.01, 0.148}, 0.05, 2000.0);
         b.list(0.1);
         const double dt = 1e-4;
@@ -100,7 +100,7 @@ TEST_CASE("coupling: springs go along with a body that moves and turns") {
 
 TEST_CASE("coupling: a spring outlives a skin that tilts under a sphere at rest") {
     for (const auto how : both) {
-        Bench b(sheet_membrane(0.2, 0.2, 1, 1), grain(ContactLaw::linear, 100.0, 1.0, 0.0), how, 0.0);
+        CouplingBench b(sheet_membrane(0.2, 0.2, 1, 1), grain(ContactLaw::linear, 100.0, 1.0, 0.0), how, 0.0);
         b.spheres.add({0.0, 0.01, 0.049}, 0.05, 2000.0);
         b.list(0.1);
         b.spheres.velocity.set(0, {0.0, 0.1, 0.0});

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "core/boundaries/double_hierarchy.hpp"
 #include "core/boundaries/face_tree.hpp"
 #include "core/boundaries/surface_shapes.hpp"
+#include "tests/bodies.hpp"
 
 using namespace proveta;
+using namespace proveta::testing;
 
 namespace {
 
@@ -132,20 +133,6 @@ Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
     return a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
 }
 
-class Dice {
-  public:
-    explicit Dice(unsigned seed) : engine_(seed) {}
-    double operator()(double low, double high) { return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0); }
-    Vec3 in_box(double half) { return {(*this)(-half, half), (*this)(-half, half), (*this)(-half, half)}; }
-    Eigen::Quaterniond turn() {
-        const Vec3 v = in_box(1.0);
-        return Eigen::Quaterniond((*this)(-1, 1), v.x(), v.y(), v.z()).normalized();
-    }
-
-  private:
-    std::mt19937 engine_;
-};
-
 // A landscape of triangles, convex and concave, in the same size as the spheres to much smaller.
 SurfaceMesh landscape(Dice& dice, int n) {
     SurfaceMesh mesh;
@@ -238,7 +225,7 @@ TEST_CASE("double-hierarchy: contacts are those of the tables on every face") {
         case 3: mesh = refined(box_surface({1.0, 0.7, 0.4})); break;
         default: mesh = helix_surface(0.1, 0.4, 0.3, 0.6, 8, 2);
         }
-        turn(mesh, dice.turn(), Vec3(dice(0.5, 2.0), 1.0, 1.0));
+        turn(mesh, dice.attitude(), Vec3(dice(0.5, 2.0), 1.0, 1.0));
         compare(mesh, dice, 500, count);
     }
     INFO("touching " << count.touching << ", at several points " << count.several << ", where the tables' own order of faces matters "
@@ -259,7 +246,7 @@ TEST_CASE("double-hierarchy: outside a convex body the contact is its nearest po
                            : world % 4 == 1 ? refined(refined(box_surface({0.5, 0.5, 0.5})))
                            : world % 4 == 2 ? sphere_surface(0.5, 1)
                                             : cylinder_surface(0.4, 0.0, 0.5, 11, true, true);
-        turn(mesh, dice.turn(), Vec3(dice(0.3, 3.0), dice(0.3, 3.0), 1.0));
+        turn(mesh, dice.attitude(), Vec3(dice(0.3, 3.0), dice(0.3, 3.0), 1.0));
         const SurfaceGeometry geometry{SurfaceMesh(mesh)};
         const FaceTree tree(mesh);
         const SurfaceMesh triangles = triangulated(mesh);
@@ -297,7 +284,7 @@ TEST_CASE("double-hierarchy: a mesh turned, moved and renumbered gives the same 
     std::size_t wrong = 0, several = 0;
     for (int world = 0; world < 200; ++world) {
         const SurfaceMesh mesh = landscape(dice, 4);
-        const Eigen::Quaterniond q = dice.turn();
+        const Eigen::Quaterniond q = dice.attitude();
         const Vec3 shift = dice.in_box(1.0);
         SurfaceMesh other;
         std::vector<std::size_t> order(mesh.faces());

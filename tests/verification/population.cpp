@@ -9,6 +9,7 @@
 #include "tests/support.hpp"
 
 using namespace proveta;
+using namespace proveta::testing;
 
 namespace {
 
@@ -85,12 +86,6 @@ template <class Leaves> void exchange(Model& model, bool reversed, const Leaves&
         }
     }
     model.repopulate(std::move(spheres), std::move(clusters), origin);
-}
-
-void run(Model& model, int steps) {
-    for (int k = 0; k < steps; ++k) {
-        model.step({}, k + 1 == steps);
-    }
 }
 
 } // namespace

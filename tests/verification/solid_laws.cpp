@@ -9,12 +9,6 @@
 using namespace proveta;
 using namespace proveta::testing;
 
-namespace {
-
-constexpr SolidLaw laws[] = {SolidLaw::kirchhoff, SolidLaw::neo_hookean, SolidLaw::j2};
-
-} // namespace
-
 TEST_CASE("solids: all laws are Hooke's at small strain") {
     Dice dice(5);
     for (const auto law : laws) {

@@ -11,8 +11,6 @@ using namespace proveta::testing;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 Vec3 angular_momentum(const Solid& s) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t k = 0; k < s.nodes(); ++k) {
@@ -30,7 +28,8 @@ TEST_CASE("solids: the energy of a vibrating cantilever and of a vibrating sheet
         s.holds.push_back(hold(s, sheet ? "rim" : "x-"));
         for (std::size_t k = 0; k < s.nodes(); ++k) {
             const Vec3 x = s.position[k];
-            s.velocity[k].z() = sheet ? 5.0 * std::cos(pi * x.x() / 0.2) * std::cos(pi * x.y() / 0.2) : 20.0 * std::pow(x.x() + 0.2, 2);
+            s.velocity[k].z() = sheet ? 5.0 * std::cos(std::numbers::pi * x.x() / 0.2) * std::cos(std::numbers::pi * x.y() / 0.2)
+                                      : 20.0 * std::pow(x.x() + 0.2, 2);
         }
         for (const auto k : s.holds[0].node) {
             s.velocity[k].setZero();
@@ -101,7 +100,7 @@ TEST_CASE("solids: Rayleigh's damping takes a1/2 + a2 w^2/2 out of a mode") {
         const double rate = 0.5 * a1 + 0.5 * a2 * w * w;
         Run run{s};
         const int per_period = 400;
-        run.dt = 2.0 * pi / std::sqrt(w * w - rate * rate) / per_period;
+        run.dt = 2.0 * std::numbers::pi / std::sqrt(w * w - rate * rate) / per_period;
         REQUIRE(run.dt < 0.5 * stable(s));
         const auto top = s.holds[1].node[0];
         double peak[2] = {0.0, 0.0};

@@ -12,16 +12,13 @@ using namespace proveta::testing;
 
 namespace {
 
-constexpr SolidLaw laws[] = {SolidLaw::kirchhoff, SolidLaw::neo_hookean, SolidLaw::j2};
-enum class Kind { tetrahedra, hexahedra, membrane };
-constexpr Kind kinds[] = {Kind::tetrahedra, Kind::hexahedra, Kind::membrane};
-
 // A mesh with nodes shifted at random; those of a sheet stay in their plane unless it is to be bumpy.
-SolidMesh distorted(Kind kind, Dice& dice, bool bumpy = false) {
-    SolidMesh mesh = kind == Kind::membrane ? sheet_membrane(0.3, 0.4, 4, 5) : box_mesh({0.3, 0.3, 0.4}, 3, 3, 4, kind == Kind::tetrahedra);
+SolidMesh distorted(BodyKind kind, Dice& dice, bool bumpy = false) {
+    SolidMesh mesh =
+        kind == BodyKind::membrane ? sheet_membrane(0.3, 0.4, 4, 5) : box_mesh({0.3, 0.3, 0.4}, 3, 3, 4, kind == BodyKind::tetrahedra);
     for (auto& v : mesh.node) {
         Vec3 shift = dice.in_box(0.015);
-        shift.z() = kind == Kind::membrane && !bumpy ? 0.0 : shift.z();
+        shift.z() = kind == BodyKind::membrane && !bumpy ? 0.0 : shift.z();
         v += shift;
     }
     return mesh;
@@ -87,7 +84,7 @@ TEST_CASE("solids: patch test, any mesh, any law, any linear displacement") {
                 REQUIRE(F.determinant() > 0.0);
                 deform(s, F, dice.in_box(1.0));
                 s.forces(team);
-                const Mat3 expected = true_stress(m, F, kind == Kind::membrane);
+                const Mat3 expected = true_stress(m, F, kind == BodyKind::membrane);
                 for (const auto& stress : s.stresses()) {
                     stress_error = std::max(stress_error, (stress - expected).norm() / m.young_modulus);
                 }
@@ -111,7 +108,7 @@ TEST_CASE("solids: rotations and translations leave no stress, rigid spins no da
             SolidMaterial m = soft_solid(law, 1e9);
             m.stiffness_damping = 1e-3;
             Solid s = solid_of(distorted(kind, dice, true), m);
-            const double force = m.young_modulus * 0.1 * (kind == Kind::membrane ? 0.002 : 0.1); // of a strain of one on an element
+            const double force = m.young_modulus * 0.1 * (kind == BodyKind::membrane ? 0.002 : 0.1); // of a strain of one on an element
             for (const double angle : {0.1, 2.0, std::acos(-1.0)}) {
                 const Vec3 axis = dice.in_box(1.0).normalized();
                 const Vec3 spin = dice.in_box(100.0);
