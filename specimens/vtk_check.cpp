@@ -85,7 +85,10 @@ class LegacyCheck {
         const std::size_t cells = count(at);
         const std::size_t size = count(at);
         if (lists_) {
-            check_lists(section, cells, integers(at, size, section));
+            check_lists(section, cells, integers(at, size, section, 4));
+        } else {
+            skip_array(at, "OFFSETS", cells);
+            skip_array(at, "CONNECTIVITY", size);
         }
         refuse_second(section, at);
         return lists_ || cells == 0 ? cells : cells - 1; // offsets are one more
@@ -96,7 +99,7 @@ class LegacyCheck {
             return;
         }
         const std::size_t n = count(at);
-        const auto type = integers(at, n, "CELL_TYPES");
+        const auto type = integers(at, n, "CELL_TYPES", 4);
         if (type.size() != cells) {
             fail(fmt::format("{} cells and {} types of cells", cells, type.size()));
         }
@@ -174,18 +177,20 @@ class LegacyCheck {
         }
         return static_cast<std::size_t>(value);
     }
-    [[nodiscard]] std::vector<long long> integers(std::size_t at, std::size_t n, const char* section) const {
+    // bytes: of each in a binary file.
+    [[nodiscard]] std::vector<long long> integers(std::size_t& at, std::size_t n, const char* section, std::size_t bytes) const {
         std::vector<long long> out;
         if (binary_) {
             at = std::min(text_.find('\n', at), text_.size() - 1) + 1;
-            if (n > (text_.size() - at) / 4) {
+            if (n > (text_.size() - at) / bytes) {
                 fail(fmt::format("the file ends in {}", section));
             }
         }
         for (std::size_t k = 0; k < n; ++k) {
             long long value = 0;
             if (binary_) {
-                value = big_endian(at + 4 * k);
+                value = big_endian(at, bytes);
+                at += bytes;
             } else if (const std::string_view found = word(at); !parse(found, value)) {
                 fail(fmt::format("{}: {} whole numbers are expected and number {} is {}", section, n, k + 1,
                                  found.empty() ? "missing: the file ends" : shown(found)));
@@ -194,12 +199,25 @@ class LegacyCheck {
         }
         return out;
     }
-    [[nodiscard]] std::int32_t big_endian(std::size_t at) const {
-        std::uint32_t out = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
+    [[nodiscard]] long long big_endian(std::size_t at, std::size_t bytes) const {
+        std::uint64_t out = 0;
+        for (std::size_t k = 0; k < bytes; ++k) {
             out = out << 8U | static_cast<unsigned char>(text_[at + k]);
         }
-        return static_cast<std::int32_t>(out);
+        return bytes == 4 ? static_cast<std::int32_t>(out) : static_cast<long long>(out);
+    }
+    // An array of a section since version 5: its name, its type and its numbers.
+    void skip_array(std::size_t& at, const char* name, std::size_t n) const {
+        if (const std::string_view found = word(at); upper(found) != name) {
+            fail(fmt::format("{} is expected and {} was found", name, found.empty() ? "the end of the file" : shown(found)));
+        }
+        const std::string_view type = word(at);
+        const std::string kind = upper(type);
+        const bool wide = kind == "VTKTYPEINT64" || kind == "LONG";
+        if (!wide && kind != "VTKTYPEINT32" && kind != "INT" && kind != "VTKIDTYPE") { // the last is written as int
+            fail(fmt::format("{}: whole numbers are expected and the type is {}", name, shown(type)));
+        }
+        (void)integers(at, n, name, wide ? 8 : 4);
     }
     // Cells as lists: a number of points and the points.
     void check_lists(const char* section, std::size_t cells, const std::vector<long long>& value) const {
