@@ -267,6 +267,7 @@ void shorten(TrialTest& test, const std::vector<Target>& targets) {
     }
     bool to_the_peak = true; // nothing past it is spoken of
     double last = 0.0;       // axial strain of the curves
+    bool results = false;    // most of them, strength first, are there only once the peak is passed
     for (const auto& t : targets) {
         if (t.input.test != test.name) {
             continue;
@@ -279,12 +280,15 @@ void shorten(TrialTest& test, const std::vector<Target>& targets) {
                                                                : std::numeric_limits<double>::infinity();
             last = std::max(last, reach * t.curve.x.back());
         } else {
+            results = true;
             to_the_peak = to_the_peak && std::find(before_the_peak.begin(), before_the_peak.end(), t.input.result) != before_the_peak.end();
         }
     }
     if (to_the_peak && !written("post_peak_drop")) {
         test.deck[stop]["post_peak_drop"] = 0.1;
     }
+    // A card that is too strong for the curve passes its peak later than the curve ends; its strength says by how much it is.
+    last *= results ? 2.0 : 1.0;
     if (last > 0.0 && std::isfinite(last)) {
         if (!written("axial_strain")) {
             test.deck[stop]["axial_strain"] = last;
