@@ -109,10 +109,31 @@ class LegacyCheck {
         refuse_second("CELL_TYPES", at);
     }
     void check_points() const {
-        if (std::size_t at = body_; find_first("POINTS", at)) {
-            (void)count(at);
-            refuse_second("POINTS", at);
+        std::size_t at = body_;
+        if (!find_first("POINTS", at)) {
+            return;
         }
+        const std::size_t values = 3 * count(at);
+        const std::string type = upper(word(at));
+        if (type != "FLOAT" && type != "DOUBLE") {
+            fail(fmt::format("POINTS: float or double is expected and {} was found", shown(type)));
+        }
+        if (binary_) {
+            at = std::min(text_.find('\n', at), text_.size() - 1) + 1;
+            const std::size_t bytes = type == "FLOAT" ? 4 : 8;
+            if (values > (text_.size() - at) / bytes) {
+                fail("the file ends in POINTS");
+            }
+            at += values * bytes;
+        }
+        for (std::size_t k = 0; !binary_ && k < values; ++k) {
+            double value = 0.0;
+            if (const std::string_view found = word(at); !parse(found, value)) {
+                fail(fmt::format("POINTS: {} numbers are expected and number {} is {}", values, k + 1,
+                                 found.empty() ? "missing: the file ends" : shown(found)));
+            }
+        }
+        refuse_second("POINTS", at);
     }
 
   private:
