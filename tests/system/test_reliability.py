@@ -130,7 +130,7 @@ class Killed(Reliability):
                 for share in (0.6, 0.4, 0.2, 0.05, 0.0):  # killed too late on a machine that has become faster: again, earlier
                     shutil.rmtree(self.folder / part, ignore_errors=True)
                     process = self.start("run", path, "--out", part, "--quiet", until=part + "/checkpoint.h5")
-                    if self.kill(process, share * seconds):
+                    if self.kill(process, share * seconds) and self.status(part) == "running":
                         break
                 self.assertEqual(self.status(part), "running")
                 resumed = self.run_program("resume", part, "--quiet")
