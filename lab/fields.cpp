@@ -157,16 +157,16 @@ report::Geometry platen_fields(const Bench& bench) {
     return g;
 }
 
-namespace {
-
-// Value below which the given share of the values lies.
 double quantile(std::vector<double> values, double share) {
     if (values.empty()) {
         return 0.0;
     }
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+    const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
 }
+
+namespace {
 
 // The plane of a picture: along the axis of a specimen that is pressed there; across the axis, the load upright, of one that is split.
 struct Plane {

@@ -15,6 +15,8 @@ namespace proveta {
 report::Geometry sphere_fields(const Bench& bench);
 /// Of each sphere the share of its bonds that have failed. mode: of the bonds, as `Bonds::mode` is or was.
 std::vector<double> damage_of(const Model& model, const std::vector<std::uint8_t>& mode);
+/// Value below which a share of the values lies, 0 of none: colours go by it, so that single splinters do not decide them.
+double quantile(std::vector<double> values, double share);
 /// Bonds as lines with mode (0 intact, 1 tension, 2 shear), damage, failure criterion state, normal (compression positive) and shear force.
 report::Geometry bond_fields(const Bench& bench);
 /// The deformable bodies' skins as polygons, with displacement and velocity of the nodes and, of membranes, the largest true stress.

@@ -84,13 +84,6 @@ double moved(const Bench& bench, const Snapshot& at, std::size_t k) {
     return (at.position.at(k) - bench.model->spheres.start.at(k)).norm();
 }
 
-// What 98 of a hundred stay below: single splinters do not decide the colours.
-double common(std::vector<double> all) {
-    const auto nth = all.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(all.size() - 1));
-    std::nth_element(all.begin(), nth, all.end());
-    return *nth;
-}
-
 // The cut along the load, its spheres coloured by how far they have moved to the side, all movements drawn larger than they are
 // (as thesis figs 5.31 and 5.33).
 struct Sideways {
@@ -108,7 +101,7 @@ Sideways sideways(const Bench& bench, const Snapshot& at) {
         way.push_back((at.position.at(k) - start.at(k)).dot(right));
         size.push_back(std::fabs(way.back()));
     }
-    Sideways out{{}, common(std::move(size)), 1.0};
+    Sideways out{{}, quantile(std::move(size), 0.98), 1.0};
     // By the largest of 1, 2, 5, 10 ... that moves nothing farther than a fiftieth of the specimen's height.
     const double room = 0.02 * bench.specimen.shape.height / std::max(out.most, 1e-300);
     const double ten = std::pow(10.0, std::floor(std::log10(std::clamp(room, 1.0, 1e6))));
@@ -121,7 +114,7 @@ Sideways sideways(const Bench& bench, const Snapshot& at) {
     return out;
 }
 
-// Of all moments.
+// Movement below which 98 % of the spheres are at all moments.
 double common_displacement(const Bench& bench, const std::vector<Snapshot>& moments) {
     double most = 0.0;
     for (const auto& at : moments) {
@@ -129,7 +122,7 @@ double common_displacement(const Bench& bench, const std::vector<Snapshot>& mome
         for (std::size_t k = 0; k < at.position.size(); ++k) {
             all.push_back(moved(bench, at, k));
         }
-        most = std::max(most, common(std::move(all)));
+        most = std::max(most, quantile(std::move(all), 0.98));
     }
     return most;
 }

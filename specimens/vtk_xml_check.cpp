@@ -44,7 +44,7 @@ class XmlCheck {
     }
 
     // Sizes in front of arrays of bytes, and where the cells of a section end in the list of their points: the length that VTK's reader
-    // gives that list. Of arrays that are not compressed: the rest fit into what they are compressed to.
+    // gives that list. Ends of compressed arrays are not looked at: they would have to be decompressed.
     void check_arrays() const {
         const auto appended = all_.find("<AppendedData");
         const bool raw = attribute(tag_at(appended), "encoding") == "raw";
