@@ -38,7 +38,7 @@ std::string sweep_text(const std::string& more) {
            more + "}";
 }
 
-input::Problems problems_of(const std::string& file) {
+input::Problems problems_of_sweep(const std::string& file) {
     try {
         read_sweep(file);
     } catch (const input::InputError& e) {
@@ -247,7 +247,7 @@ TEST_CASE("levels of a grid are taken as they are") {
 TEST_CASE("what is wrong with a sweep is said at its place") {
     const TemporaryFolder folder;
     const auto path_of = [&](const std::string& more) {
-        const auto problems = problems_of(folder.file("s.json", sweep_text(more)));
+        const auto problems = problems_of_sweep(folder.file("s.json", sweep_text(more)));
         REQUIRE(problems.size() == 1);
         return problems.front().path;
     };
@@ -255,11 +255,11 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
     CHECK(path_of(R"(, "design": "morris", "levels": 5)") == "/levels");
     CHECK(path_of(R"(, "design": "morris", "points": 50000)") == "/points");
     CHECK(path_of(R"(, "design": "random")") == "/design");
-    const auto beyond = problems_of(folder.file("b.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
+    const auto beyond = problems_of_sweep(folder.file("b.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
         "parameters": [{"path": "material.tau_f", "low": -1, "high": "9 MPa"}, {"path": "material.mu_s", "values": [0.1, 0.2]}]})"));
     REQUIRE(beyond.size() == 1);
     CHECK(beyond.front().path == "/parameters/1/values");
-    const auto bounds = problems_of(folder.file("c.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
+    const auto bounds = problems_of_sweep(folder.file("c.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
         "parameters": [{"path": "material.tau_f", "low": -1, "high": "9 MPa"}]})"));
     REQUIRE(bounds.size() == 1);
     CHECK(bounds.front().path == "/parameters/0/low");

@@ -1,0 +1,380 @@
+// Meshes of deformable bodies from files.
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+#include "specimens/solid_import.hpp"
+#include "tests/solid_shells.hpp"
+#include "tests/support.hpp"
+
+using namespace proveta;
+using namespace proveta::testing;
+
+namespace {
+
+std::string message(const std::string& file) {
+    try {
+        import_solid(file);
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+bool has(const std::string& text, const std::string& part) {
+    INFO("\"" << text << "\" lacks \"" << part << "\"");
+    CHECK(text.find(part) != std::string::npos);
+    return text.find(part) != std::string::npos;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    if (at == std::string::npos) {
+        throw std::runtime_error("nothing to replace: " + from);
+    }
+    return text.replace(at, from.size(), to);
+}
+
+// A tetrahedron of 1/6 with its lower face in a group, and the second one of the other kind of numbering.
+const std::string msh2 = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "the foot"
+3 7 "body"
+$EndPhysicalNames
+$Nodes
+6
+10 0 0 0
+20 1 0 0
+30 0 1 0
+40 0 0 1
+50 1 1 1.5
+60 9 9 9
+$EndNodes
+$Elements
+5
+1 15 2 5 1 10
+2 1 2 0 1 10 20
+3 2 2 1 1 10 30 20
+4 4 2 7 1 10 20 30 40
+5 4 2 7 1 20 30 40 50
+$EndElements
+)";
+
+const std::string msh4 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+2 3 "top"
+$EndPhysicalNames
+$Entities
+1 0 1 1
+1 0 0 0 0
+5 0 0 1 1 1 1 1 -3 0
+1 0 0 0 1 1 1 1 4 1 5
+$EndEntities
+$Nodes
+2 8 1 8
+2 5 0 4
+5
+6
+7
+8
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+3 1 1 4
+1
+2
+3
+4
+0 0 0 0 0 0
+1 0 0 0 0 0
+1 1 0 0 0 0
+0 1 0 0 0 0
+$EndNodes
+$Elements
+2 2 1 2
+2 5 3 1
+1 5 6 7 8
+3 1 5 1
+2 1 2 3 4 5 6 7 8
+$EndElements
+$NodeData
+1
+"a field"
+$EndNodeData
+)";
+
+const std::string vtk = R"(# vtk DataFile Version 3.0
+a cube and a tetrahedron on it
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 9 double
+0 0 0 1 0 0 1 1 0 0 1 0
+0 0 1 1 0 1 1 1 1 0 1 1
+0 0 2
+CELLS 3 17
+8 0 1 2 3 4 5 6 7
+4 4 5 7 8
+2 0 1
+CELL_TYPES 3
+12
+10
+3
+CELL_DATA 3
+SCALARS material int 1
+LOOKUP_TABLE default
+1 2 3
+)";
+
+const std::string vtu = R"(<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="4" NumberOfCells="1">
+<PointData Scalars="s"><DataArray type="Float64" Name="s" format="ascii">1 2 3 4</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>
+<Cells>
+<DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10</DataArray>
+</Cells></Piece></UnstructuredGrid></VTKFile>
+)";
+
+// A sheet of one element, of Gmsh's type and nodes given.
+std::string sheet(const std::string& element) {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 2 0 0\n3 2 1 0\n4 0 1 0\n5 0.4 0.4 0\n$EndNodes\n$Elements\n1\n1 " +
+           element + "\n$EndElements\n";
+}
+
+} // namespace
+
+TEST_CASE("Gmsh's format 2.2: groups, an inverted element, an unused node") {
+    const TemporaryFolder folder;
+    const auto in = import_solid(folder.file("a.msh", msh2), 0.1);
+    CHECK(in.mesh.node.size() == 5);
+    CHECK(in.mesh.tetrahedra.size() == 2);
+    CHECK(in.mesh.membranes.empty());
+    CHECK(volume_of(in.mesh) == Approx(1e-3 * (1.0 / 6.0 + 2.5 / 6.0)));
+    CHECK(group(in.mesh, "the foot") == std::vector<std::uint32_t>{0, 1, 2});
+    CHECK(group(in.mesh, "body").size() == 5);
+    CHECK(group(in.mesh, "5") == std::vector<std::uint32_t>{0});
+    CHECK(in.mesh.groups.size() == 3);
+    CHECK(any_has(in.notes, "1 nodes of no element"));
+    CHECK(any_has(in.notes, "1 points, lines"));
+    CHECK(in.notes.size() == 2);
+    const std::string inverted = replaced(msh2, "1 10 20 30 40", "1 20 10 30 40");
+    const auto turned = import_solid(folder.file("i.msh", inverted), 0.1);
+    CHECK(any_has(turned.notes, "1 inverted elements"));
+    CHECK(volume_of(turned.mesh) == Approx(volume_of(in.mesh)));
+    // Lines of other systems.
+    std::string dos;
+    for (const char c : msh2) {
+        dos += c == '\n' ? "\r\n" : std::string(1, c);
+    }
+    CHECK(import_solid(folder.file("d.msh", dos)).mesh.tetrahedra == in.mesh.tetrahedra);
+}
+
+TEST_CASE("an element of two groups is taken once, and groups of one number but several dimensions stay apart") {
+    const TemporaryFolder folder;
+    std::string text = replaced(msh2, "$Elements\n5", "$Elements\n6");
+    text = replaced(text, "5 4 2 7 1 20", "4 4 2 8 1 10 20 30 40\n5 4 2 5 1 20");
+    const auto in = import_solid(folder.file("a.msh", text));
+    CHECK(in.mesh.tetrahedra.size() == 2);
+    CHECK(any_has(in.notes, "more than once"));
+    CHECK(group(in.mesh, "8") == group(in.mesh, "body"));
+    CHECK(group(in.mesh, "5 (points)").size() == 1);
+    CHECK(group(in.mesh, "5 (volumes)").size() == 4);
+}
+
+TEST_CASE("Gmsh's format 4.1: blocks, entities, parametric nodes, sections to pass over") {
+    const TemporaryFolder folder;
+    const auto in = import_solid(folder.file("a.MSH", msh4));
+    CHECK(in.mesh.hexahedra.size() == 1);
+    CHECK(volume_of(in.mesh) == Approx(1.0));
+    CHECK(in.notes.empty());
+    CHECK(in.mesh.groups.size() == 2);
+    REQUIRE(group(in.mesh, "top").size() == 4);
+    for (const auto n : group(in.mesh, "top")) {
+        CHECK(in.mesh.node[n].z() == 1.0);
+    }
+    CHECK(group(in.mesh, "4").size() == 8);
+    // As other programs write it: without entities.
+    const auto from = msh4.find("$Entities");
+    const auto to = msh4.find("$Nodes");
+    const auto bare = import_solid(folder.file("b.msh", msh4.substr(0, from) + msh4.substr(to)));
+    CHECK(bare.mesh.groups.empty());
+    CHECK(any_has(bare.notes, "1 points, lines"));
+}
+
+TEST_CASE("files without volume elements are membranes; quadrilaterals are cut along the shorter or the inner diagonal") {
+    const TemporaryFolder folder;
+    const auto one = import_solid(folder.file("t.msh", sheet("2 2 9 1 1 2 4")));
+    CHECK(one.mesh.membranes == std::vector<SolidMesh::Triangle>{{0, 1, 2}});
+    CHECK(group(one.mesh, "9").size() == 3);
+    const auto two = import_solid(folder.file("q.msh", sheet("3 2 0 1 1 2 3 4")));
+    CHECK(two.mesh.membranes == std::vector<SolidMesh::Triangle>{{0, 1, 2}, {0, 2, 3}});
+    CHECK(shell_of(two.mesh).area == Approx(2.0));
+    // An arrow, whose fourth corner points inwards, and one whose shorter diagonal is outside.
+    const auto arrow = import_solid(folder.file("a.msh", sheet("3 2 0 1 1 2 5 4")));
+    CHECK(shell_of(arrow.mesh).area == Approx(0.6));
+    CHECK(arrow.mesh.membranes.size() == 2);
+    const std::string thin = replaced(sheet("3 2 0 1 1 2 5 4"), "4 0 1 0\n5 0.4 0.4 0", "4 2 0.1 0\n5 1 0.04 0");
+    const auto narrow = import_solid(folder.file("n.msh", thin));
+    const Vec3 up = twice_area(narrow.mesh, {narrow.mesh.membranes[0].begin(), narrow.mesh.membranes[0].end()});
+    const Vec3 too = twice_area(narrow.mesh, {narrow.mesh.membranes[1].begin(), narrow.mesh.membranes[1].end()});
+    CHECK(up.dot(too) > 0.0);
+}
+
+TEST_CASE("VTK's unstructured grids, legacy and XML") {
+    const TemporaryFolder folder;
+    const auto in = import_solid(folder.file("a.vtk", vtk));
+    CHECK(in.mesh.hexahedra.size() == 1);
+    CHECK(in.mesh.tetrahedra.size() == 1);
+    CHECK(volume_of(in.mesh) == Approx(1.0 + 1.0 / 6.0));
+    CHECK(in.mesh.groups.empty());
+    const auto xml = import_solid(folder.file("a.vtu", vtu), 2.0);
+    CHECK(volume_of(xml.mesh) == Approx(8.0 / 6.0));
+    CHECK(xml.notes.empty());
+    const auto sheet_only = import_solid(folder.file(
+        "s.vtk", "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 1 0 0 1 1 0 0 1 0 7 7 7\n"
+                 "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n"));
+    CHECK(sheet_only.mesh.membranes.size() == 2);
+    CHECK(shell_of(sheet_only.mesh).area == Approx(1.0));
+    CHECK(any_has(sheet_only.notes, "1 nodes of no element"));
+    const std::string offsets =
+        replaced(vtk, "CELLS 3 17\n8 0 1 2 3 4 5 6 7\n4 4 5 7 8\n2 0 1\n",
+                 "CELLS 4 14\nOFFSETS vtktypeint64\n0 8 12 14\nCONNECTIVITY vtktypeint64\n0 1 2 3 4 5 6 7 4 5 7 8 0 1\n");
+    const auto newer = import_solid(folder.file("n.vtk", replaced(offsets, "Version 3.0", "Version 5.1")));
+    CHECK(newer.mesh.hexahedra == in.mesh.hexahedra);
+    CHECK(newer.mesh.tetrahedra == in.mesh.tetrahedra);
+}
+
+TEST_CASE("nodes in one place are mentioned: nothing is joined there") {
+    const TemporaryFolder folder;
+    const auto in = import_solid(folder.file("a.msh", replaced(sheet("3 2 0 1 1 2 3 4"), "5 0.4 0.4 0", "5 0 0 0")));
+    CHECK_FALSE(any_has(in.notes, "where another does")); // the fifth is of no element
+    std::string text = replaced(sheet("2 0 1 2 3"), "5 0.4 0.4 0", "5 0 0 0");
+    text = replaced(text, "$Elements\n1\n", "$Elements\n2\n2 2 0 5 3 4\n");
+    CHECK(any_has(import_solid(folder.file("b.msh", text)).notes, "1 nodes lie where another does"));
+}
+
+TEST_CASE("bad Gmsh files are refused with file, line and reason") {
+    const TemporaryFolder folder;
+    const auto refusal = [&](const std::string& text) { return message(folder.file("bad.msh", text)); };
+    const auto two = [&](const std::string& from, const std::string& to) { return refusal(replaced(msh2, from, to)); };
+    const auto four = [&](const std::string& from, const std::string& to) { return refusal(replaced(msh4, from, to)); };
+
+    has(message((folder.path() / "nowhere.msh").string()), "no such file");
+    has(message(folder.file("a.step", "x")), ".msh");
+    has(refusal("\n"), "$MeshFormat is expected");
+    has(refusal("$NOD\n1\n"), "\"$NOD\"");
+    has(two("2.2 0 8", "4.0 0 8"), "bad.msh:2: version \"4.0\"");
+    has(two("2.2 0 8", "2.2 1 8"), "binary");
+    has(refusal(std::string("\x7f\x00\xff\n\x01", 5)), "$MeshFormat is expected and \"???\"");
+    has(two("$Nodes\n6", "$Nodes\n4000000000000"), "bad.msh:10: the number of nodes is 4000000000000");
+    has(two("$Nodes\n6", "$Nodes\n-6"), "-6");
+    has(two("$Nodes\n6", "$Nodes\n99999999999999999999999"), "the number of nodes is expected and");
+    has(two("$Nodes\n6", "$Nodes\n5"), "$EndNodes is expected and \"60 9 9 9\"");
+    has(two("$Nodes\n6", "$Nodes\n7"), "bad.msh:17: a node");
+    has(two("20 1 0 0", "20 1 zero 0"), "bad.msh:12: a node's coordinate, a finite number, is expected and \"zero\"");
+    has(two("20 1 0 0", "20 1 nan 0"), "\"nan\"");
+    has(two("20 1 0 0", "20 1 1e999 0"), "\"1e999\"");
+    has(two("20 1 0 0", "20 1 0"), "of 4 numbers");
+    has(two("20 1 0 0", "1.5 1 0 0"), "\"1.5\"");
+    has(two("20 1 0 0", "10 1 0 0"), "bad.msh:12: a second node 10; the first is in line 11");
+    has(two("10 20 30 40", "10 20 30 41"), "node 41 is not among");
+    has(two("10 20 30 40", "10 20 30"), "4 nodes");
+    has(two("5 4 2 7 1 20", "4 4 2 7 1 20"), "a second element 4");
+    has(two("4 4 2 7", "4 11 2 7"), "second-order tetrahedron");
+    has(two("4 4 2 7", "4 6 2 7"), "prism");
+    has(two("4 4 2 7", "4 7 2 7"), "pyramid");
+    has(two("4 4 2 7", "4 777 2 7"), "unknown kind (Gmsh's type 777)");
+    has(two("4 4 2 7", "4 4 2000000000 7"), "2000000000 tags");
+    has(two("4 4 2 7", "4 4 -2 7"), "-2 tags");
+    has(two("$Elements\n5", "$Elements\n6"), "\"$EndElements\"");
+    has(two("2 1 \"the foot\"", "2 1 the foot"), "quotes");
+    has(two("2 1 \"the foot\"", "9 1 \"the foot\""), "dimension");
+    has(two("50 1 1 1.5", "50 0.5 0.5 0"), "tetrahedron 2 at"); // with three others in a plane
+    has(two("50 1 1 1.5", "50 0.5 0.5 0"), "no volume");
+    has(two("10 20 30 40", "10 20 30 30"), "same node twice");
+    has(refusal(msh2.substr(0, msh2.find("$Elements"))), "holds no tetrahedra");
+    has(refusal(msh2 + "$Nodes\n0\n$EndNodes\n"), "a second section $Nodes");
+    has(refusal(msh2 + "$Notes\n"), "the file ends where $EndNotes is expected");
+    has(refusal(msh2 + "what\n"), "the beginning of a section");
+    has(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + msh2.substr(msh2.find("$Elements"))), "$Elements before $Nodes");
+
+    has(four("2 8 1 8", "2 9 1 8"), "8 nodes where 9 are expected");
+    has(four("3 1 5 1", "3 1 5 2"), "an element of 8 nodes");
+    has(four("3 1 5 1", "2 1 5 1"), "elements of dimension 3 in an entity of dimension 2");
+    has(four("3 1 5 1", "3 1 5 9999999999"), "9999999999");
+    has(four("2 2 1 2", "2 3 1 2"), "2 elements where 3 are expected");
+    has(four("1 0 1 1\n", "1 0 1 1000000000000\n"), "a number of entities");
+    has(four("1 1 1 -3 0", "1 1 5000000 -3 0"), "physical groups");
+    has(four("1 1 1 -3 0", "1 1 5 -3 0"), "a physical group's number");
+    has(four("2 5 0 4\n5\n6", "2 5 0 4\n5\n5"), "a second node 5");
+    has(four("2 5 0 4", "7 5 0 4"), "dimension is 7");
+
+    // Cut anywhere but behind its last section, a file is refused; whatever else changes, it is read or refused.
+    const std::size_t whole = msh2.size() - 2;
+    for (std::size_t k = 0; k < whole; k += 3) {
+        INFO(k);
+        CHECK_FALSE(refusal(msh2.substr(0, k) + " ").empty());
+    }
+    for (const auto& text : {msh2, msh4}) {
+        for (std::size_t k = 0; k < text.size(); ++k) {
+            std::string other = text;
+            other[k] = std::string("9- \n$")[k % 5];
+            CHECK_NOTHROW(refusal(other)); // message() lets nothing but std::runtime_error by
+        }
+    }
+}
+
+TEST_CASE("bad VTK files are refused with the reason") {
+    const TemporaryFolder folder;
+    const auto legacy = [&](const std::string& text) { return message(folder.file("bad.vtk", text)); };
+    const auto xml = [&](const std::string& text) { return message(folder.file("bad.vtu", text)); };
+    has(legacy("this is nothing\n"), "cannot be read");
+    has(legacy(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA")), "UNSTRUCTURED_GRID is expected in the fourth line and \"POLYDATA\"");
+    has(legacy(replaced(vtk, "POINTS 9", "POINTS 9000000000000")), "9000000000000 points");
+    has(legacy(replaced(vtk, "0 0 2\n", "0 zero 2\n")), "POINTS: 27 numbers are expected and number 26 is \"zero\"");
+    has(legacy(replaced(vtk, "8 0 1 2 3", "9 0 1 2 3")), "CELLS");
+    has(legacy(replaced(vtk, "8 0 1 2 3", "8000 0 1 2 3")), "cell 1 has more points");
+    has(legacy(replaced(vtk, "8 0 1 2 3", "8 0 1 2 33")), "cell 1 has point 33");
+    has(legacy(replaced(vtk, "8 0 1 2 3", "8 0 1 2 -3")), "cell 1 has point -3");
+    has(legacy(replaced(vtk, "CELLS 3 17", "CELLS 3 16")), "CELLS");
+    has(legacy(replaced(vtk, "12\n10\n", "25\n10\n")), "vtkQuadraticHexahedron");
+    has(legacy(replaced(vtk, "12\n10\n", "12\n42\n")), "vtkPolyhedron");
+    has(legacy(replaced(vtk, "12\n10\n", "12\n250\n")), "cell 2 is of type 250");
+    has(legacy(replaced(vtk, "12\n10\n", "12\n12\n")), "cell 2 has 4 points where 8");
+    has(legacy(vtk.substr(0, vtk.find("CELL_TYPES"))), "holds no tetrahedra");
+    has(legacy(replaced(vtk, "CELL_TYPES 3", "CELL_TYPES 2")), "3 cells and 2 types");
+    has(legacy(replaced(vtk, "0 0 2\n", "0 0 1\n")), "no volume");
+    has(legacy(replaced(vtk, "Version 3.0", "Version= 3.0")), "Version is expected");
+    has(legacy(replaced(vtk, "Version 3.0", "Version 30.0")), "\"30.0\"");
+    has(legacy(replaced(vtk, "POINTS 9", "POINTS 18446744073709551615")), "18446744073709551615");
+    CHECK(legacy(replaced(vtk, "SCALARS material", "SCALARS cells")).empty());
+    has(legacy(replaced(vtk, "CELLS 3", "CELLS-3 1")), "\"CELLS-3\"");
+    has(legacy(vtk + "CELLS 1 5\n4 0 1 2 3\n"), "a second section CELLS");
+
+    has(xml("<VTKFile"), "cannot be read");
+    has(xml(vtu.substr(0, vtu.size() / 2)), "cannot be read");
+    has(xml(replaced(vtu, "NumberOfPoints=\"4\"", "NumberOfPoints=\"40000000000000\"")), "40000000000000");
+    has(xml(replaced(vtu, "NumberOfCells=\"1\"", "NumberOfCells=\"-1\"")), "-1");
+    has(xml(replaced(vtu, ">0 1 2 3<", ">0 1 2 9<")), "cell 1 has point 9");
+    has(xml(replaced(vtu, ">4<", ">400<")), "bad.vtu");
+    has(xml(replaced(vtu, ">10<", ">24<")), "vtkQuadraticTetra");
+    has(xml(replaced(vtu, ">0 0 0 1 0 0 0 1 0 0 0 1<", ">0 0 0 1 0 0 0 1 0 0 0<")), "cannot be read");
+    has(xml(replaced(vtu, "0 0 0 1<", "0 0 0 nan<")), "bad.vtu");
+    has(xml(vtk), "cannot be read");
+    has(legacy(vtu), "cannot be read");
+}
+
+TEST_CASE("a scale must be positive") {
+    const TemporaryFolder folder;
+    CHECK_THROWS_AS(import_solid(folder.file("a.msh", msh2), 0.0), std::runtime_error);
+    CHECK_THROWS_AS(import_solid(folder.file("a.msh", msh2), std::nan("")), std::runtime_error);
+}
