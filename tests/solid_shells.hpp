@@ -1,6 +1,8 @@
 // Meshes of solids as tests look at them: their surfaces, groups and notes.
 #pragma once
 
+#include <catch2/catch.hpp>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -66,6 +68,13 @@ inline const std::vector<std::uint32_t>& group(const SolidMesh& mesh, const std:
         }
     }
     throw std::runtime_error("no group " + name);
+}
+
+/// Checks that a text holds a part, and shows both where it does not.
+inline bool says(const std::string& text, const std::string& part) {
+    INFO("\"" << text << "\" lacks \"" << part << "\"");
+    CHECK(text.find(part) != std::string::npos);
+    return text.find(part) != std::string::npos;
 }
 
 inline bool any_has(const std::vector<std::string>& texts, const std::string& part) {

@@ -21,12 +21,6 @@ std::string message(const std::string& file) {
     return "";
 }
 
-bool has(const std::string& text, const std::string& part) {
-    INFO("\"" << text << "\" lacks \"" << part << "\"");
-    CHECK(text.find(part) != std::string::npos);
-    return text.find(part) != std::string::npos;
-}
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const auto at = text.find(from);
     if (at == std::string::npos) {
@@ -268,55 +262,55 @@ TEST_CASE("bad Gmsh files are refused with file, line and reason") {
     const auto two = [&](const std::string& from, const std::string& to) { return refusal(replaced(msh2, from, to)); };
     const auto four = [&](const std::string& from, const std::string& to) { return refusal(replaced(msh4, from, to)); };
 
-    has(message((folder.path() / "nowhere.msh").string()), "no such file");
-    has(message(folder.file("a.step", "x")), ".msh");
-    has(refusal("\n"), "$MeshFormat is expected");
-    has(refusal("$NOD\n1\n"), "\"$NOD\"");
-    has(two("2.2 0 8", "4.0 0 8"), "bad.msh:2: version \"4.0\"");
-    has(two("2.2 0 8", "2.2 1 8"), "binary");
-    has(refusal(std::string("\x7f\x00\xff\n\x01", 5)), "$MeshFormat is expected and \"???\"");
-    has(two("$Nodes\n6", "$Nodes\n4000000000000"), "bad.msh:10: the number of nodes is 4000000000000");
-    has(two("$Nodes\n6", "$Nodes\n-6"), "-6");
-    has(two("$Nodes\n6", "$Nodes\n99999999999999999999999"), "the number of nodes is expected and");
-    has(two("$Nodes\n6", "$Nodes\n5"), "$EndNodes is expected and \"60 9 9 9\"");
-    has(two("$Nodes\n6", "$Nodes\n7"), "bad.msh:17: a node");
-    has(two("20 1 0 0", "20 1 zero 0"), "bad.msh:12: a node's coordinate, a finite number, is expected and \"zero\"");
-    has(two("20 1 0 0", "20 1 nan 0"), "\"nan\"");
-    has(two("20 1 0 0", "20 1 1e999 0"), "\"1e999\"");
-    has(two("20 1 0 0", "20 1 0"), "of 4 numbers");
-    has(two("20 1 0 0", "1.5 1 0 0"), "\"1.5\"");
-    has(two("20 1 0 0", "10 1 0 0"), "bad.msh:12: a second node 10; the first is in line 11");
-    has(two("10 20 30 40", "10 20 30 41"), "node 41 is not among");
-    has(two("10 20 30 40", "10 20 30"), "4 nodes");
-    has(two("5 4 2 7 1 20", "4 4 2 7 1 20"), "a second element 4");
-    has(two("4 4 2 7", "4 11 2 7"), "second-order tetrahedron");
-    has(two("4 4 2 7", "4 6 2 7"), "prism");
-    has(two("4 4 2 7", "4 7 2 7"), "pyramid");
-    has(two("4 4 2 7", "4 777 2 7"), "unknown kind (Gmsh's type 777)");
-    has(two("4 4 2 7", "4 4 2000000000 7"), "2000000000 tags");
-    has(two("4 4 2 7", "4 4 -2 7"), "-2 tags");
-    has(two("$Elements\n5", "$Elements\n6"), "\"$EndElements\"");
-    has(two("2 1 \"the foot\"", "2 1 the foot"), "quotes");
-    has(two("2 1 \"the foot\"", "9 1 \"the foot\""), "dimension");
-    has(two("50 1 1 1.5", "50 0.5 0.5 0"), "tetrahedron 2 at"); // with three others in a plane
-    has(two("50 1 1 1.5", "50 0.5 0.5 0"), "no volume");
-    has(two("10 20 30 40", "10 20 30 30"), "same node twice");
-    has(refusal(msh2.substr(0, msh2.find("$Elements"))), "holds no tetrahedra");
-    has(refusal(msh2 + "$Nodes\n0\n$EndNodes\n"), "a second section $Nodes");
-    has(refusal(msh2 + "$Notes\n"), "the file ends where $EndNotes is expected");
-    has(refusal(msh2 + "what\n"), "the beginning of a section");
-    has(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + msh2.substr(msh2.find("$Elements"))), "$Elements before $Nodes");
+    says(message((folder.path() / "nowhere.msh").string()), "no such file");
+    says(message(folder.file("a.step", "x")), ".msh");
+    says(refusal("\n"), "$MeshFormat is expected");
+    says(refusal("$NOD\n1\n"), "\"$NOD\"");
+    says(two("2.2 0 8", "4.0 0 8"), "bad.msh:2: version \"4.0\"");
+    says(two("2.2 0 8", "2.2 1 8"), "binary");
+    says(refusal(std::string("\x7f\x00\xff\n\x01", 5)), "$MeshFormat is expected and \"???\"");
+    says(two("$Nodes\n6", "$Nodes\n4000000000000"), "bad.msh:10: the number of nodes is 4000000000000");
+    says(two("$Nodes\n6", "$Nodes\n-6"), "-6");
+    says(two("$Nodes\n6", "$Nodes\n99999999999999999999999"), "the number of nodes is expected and");
+    says(two("$Nodes\n6", "$Nodes\n5"), "$EndNodes is expected and \"60 9 9 9\"");
+    says(two("$Nodes\n6", "$Nodes\n7"), "bad.msh:17: a node");
+    says(two("20 1 0 0", "20 1 zero 0"), "bad.msh:12: a node's coordinate, a finite number, is expected and \"zero\"");
+    says(two("20 1 0 0", "20 1 nan 0"), "\"nan\"");
+    says(two("20 1 0 0", "20 1 1e999 0"), "\"1e999\"");
+    says(two("20 1 0 0", "20 1 0"), "of 4 numbers");
+    says(two("20 1 0 0", "1.5 1 0 0"), "\"1.5\"");
+    says(two("20 1 0 0", "10 1 0 0"), "bad.msh:12: a second node 10; the first is in line 11");
+    says(two("10 20 30 40", "10 20 30 41"), "node 41 is not among");
+    says(two("10 20 30 40", "10 20 30"), "4 nodes");
+    says(two("5 4 2 7 1 20", "4 4 2 7 1 20"), "a second element 4");
+    says(two("4 4 2 7", "4 11 2 7"), "second-order tetrahedron");
+    says(two("4 4 2 7", "4 6 2 7"), "prism");
+    says(two("4 4 2 7", "4 7 2 7"), "pyramid");
+    says(two("4 4 2 7", "4 777 2 7"), "unknown kind (Gmsh's type 777)");
+    says(two("4 4 2 7", "4 4 2000000000 7"), "2000000000 tags");
+    says(two("4 4 2 7", "4 4 -2 7"), "-2 tags");
+    says(two("$Elements\n5", "$Elements\n6"), "\"$EndElements\"");
+    says(two("2 1 \"the foot\"", "2 1 the foot"), "quotes");
+    says(two("2 1 \"the foot\"", "9 1 \"the foot\""), "dimension");
+    says(two("50 1 1 1.5", "50 0.5 0.5 0"), "tetrahedron 2 at"); // with three others in a plane
+    says(two("50 1 1 1.5", "50 0.5 0.5 0"), "no volume");
+    says(two("10 20 30 40", "10 20 30 30"), "same node twice");
+    says(refusal(msh2.substr(0, msh2.find("$Elements"))), "holds no tetrahedra");
+    says(refusal(msh2 + "$Nodes\n0\n$EndNodes\n"), "a second section $Nodes");
+    says(refusal(msh2 + "$Notes\n"), "the file ends where $EndNotes is expected");
+    says(refusal(msh2 + "what\n"), "the beginning of a section");
+    says(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + msh2.substr(msh2.find("$Elements"))), "$Elements before $Nodes");
 
-    has(four("2 8 1 8", "2 9 1 8"), "8 nodes where 9 are expected");
-    has(four("3 1 5 1", "3 1 5 2"), "an element of 8 nodes");
-    has(four("3 1 5 1", "2 1 5 1"), "elements of dimension 3 in an entity of dimension 2");
-    has(four("3 1 5 1", "3 1 5 9999999999"), "9999999999");
-    has(four("2 2 1 2", "2 3 1 2"), "2 elements where 3 are expected");
-    has(four("1 0 1 1\n", "1 0 1 1000000000000\n"), "a number of entities");
-    has(four("1 1 1 -3 0", "1 1 5000000 -3 0"), "physical groups");
-    has(four("1 1 1 -3 0", "1 1 5 -3 0"), "a physical group's number");
-    has(four("2 5 0 4\n5\n6", "2 5 0 4\n5\n5"), "a second node 5");
-    has(four("2 5 0 4", "7 5 0 4"), "dimension is 7");
+    says(four("2 8 1 8", "2 9 1 8"), "8 nodes where 9 are expected");
+    says(four("3 1 5 1", "3 1 5 2"), "an element of 8 nodes");
+    says(four("3 1 5 1", "2 1 5 1"), "elements of dimension 3 in an entity of dimension 2");
+    says(four("3 1 5 1", "3 1 5 9999999999"), "9999999999");
+    says(four("2 2 1 2", "2 3 1 2"), "2 elements where 3 are expected");
+    says(four("1 0 1 1\n", "1 0 1 1000000000000\n"), "a number of entities");
+    says(four("1 1 1 -3 0", "1 1 5000000 -3 0"), "physical groups");
+    says(four("1 1 1 -3 0", "1 1 5 -3 0"), "a physical group's number");
+    says(four("2 5 0 4\n5\n6", "2 5 0 4\n5\n5"), "a second node 5");
+    says(four("2 5 0 4", "7 5 0 4"), "dimension is 7");
 
     // Cut anywhere but behind its last section, a file is refused; whatever else changes, it is read or refused.
     const std::size_t whole = msh2.size() - 2;
@@ -337,40 +331,40 @@ TEST_CASE("bad VTK files are refused with the reason") {
     const TemporaryFolder folder;
     const auto legacy = [&](const std::string& text) { return message(folder.file("bad.vtk", text)); };
     const auto xml = [&](const std::string& text) { return message(folder.file("bad.vtu", text)); };
-    has(legacy("this is nothing\n"), "cannot be read");
-    has(legacy(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA")), "UNSTRUCTURED_GRID is expected in the fourth line and \"POLYDATA\"");
-    has(legacy(replaced(vtk, "POINTS 9", "POINTS 9000000000000")), "9000000000000 points");
-    has(legacy(replaced(vtk, "0 0 2\n", "0 zero 2\n")), "POINTS: 27 numbers are expected and number 26 is \"zero\"");
-    has(legacy(replaced(vtk, "8 0 1 2 3", "9 0 1 2 3")), "CELLS");
-    has(legacy(replaced(vtk, "8 0 1 2 3", "8000 0 1 2 3")), "cell 1 has more points");
-    has(legacy(replaced(vtk, "8 0 1 2 3", "8 0 1 2 33")), "cell 1 has point 33");
-    has(legacy(replaced(vtk, "8 0 1 2 3", "8 0 1 2 -3")), "cell 1 has point -3");
-    has(legacy(replaced(vtk, "CELLS 3 17", "CELLS 3 16")), "CELLS");
-    has(legacy(replaced(vtk, "12\n10\n", "25\n10\n")), "vtkQuadraticHexahedron");
-    has(legacy(replaced(vtk, "12\n10\n", "12\n42\n")), "vtkPolyhedron");
-    has(legacy(replaced(vtk, "12\n10\n", "12\n250\n")), "cell 2 is of type 250");
-    has(legacy(replaced(vtk, "12\n10\n", "12\n12\n")), "cell 2 has 4 points where 8");
-    has(legacy(vtk.substr(0, vtk.find("CELL_TYPES"))), "holds no tetrahedra");
-    has(legacy(replaced(vtk, "CELL_TYPES 3", "CELL_TYPES 2")), "3 cells and 2 types");
-    has(legacy(replaced(vtk, "0 0 2\n", "0 0 1\n")), "no volume");
-    has(legacy(replaced(vtk, "Version 3.0", "Version= 3.0")), "Version is expected");
-    has(legacy(replaced(vtk, "Version 3.0", "Version 30.0")), "\"30.0\"");
-    has(legacy(replaced(vtk, "POINTS 9", "POINTS 18446744073709551615")), "18446744073709551615");
+    says(legacy("this is nothing\n"), "cannot be read");
+    says(legacy(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA")), "UNSTRUCTURED_GRID is expected in the fourth line and \"POLYDATA\"");
+    says(legacy(replaced(vtk, "POINTS 9", "POINTS 9000000000000")), "9000000000000 points");
+    says(legacy(replaced(vtk, "0 0 2\n", "0 zero 2\n")), "POINTS: 27 numbers are expected and number 26 is \"zero\"");
+    says(legacy(replaced(vtk, "8 0 1 2 3", "9 0 1 2 3")), "CELLS");
+    says(legacy(replaced(vtk, "8 0 1 2 3", "8000 0 1 2 3")), "cell 1 has more points");
+    says(legacy(replaced(vtk, "8 0 1 2 3", "8 0 1 2 33")), "cell 1 has point 33");
+    says(legacy(replaced(vtk, "8 0 1 2 3", "8 0 1 2 -3")), "cell 1 has point -3");
+    says(legacy(replaced(vtk, "CELLS 3 17", "CELLS 3 16")), "CELLS");
+    says(legacy(replaced(vtk, "12\n10\n", "25\n10\n")), "vtkQuadraticHexahedron");
+    says(legacy(replaced(vtk, "12\n10\n", "12\n42\n")), "vtkPolyhedron");
+    says(legacy(replaced(vtk, "12\n10\n", "12\n250\n")), "cell 2 is of type 250");
+    says(legacy(replaced(vtk, "12\n10\n", "12\n12\n")), "cell 2 has 4 points where 8");
+    says(legacy(vtk.substr(0, vtk.find("CELL_TYPES"))), "holds no tetrahedra");
+    says(legacy(replaced(vtk, "CELL_TYPES 3", "CELL_TYPES 2")), "3 cells and 2 types");
+    says(legacy(replaced(vtk, "0 0 2\n", "0 0 1\n")), "no volume");
+    says(legacy(replaced(vtk, "Version 3.0", "Version= 3.0")), "Version is expected");
+    says(legacy(replaced(vtk, "Version 3.0", "Version 30.0")), "\"30.0\"");
+    says(legacy(replaced(vtk, "POINTS 9", "POINTS 18446744073709551615")), "18446744073709551615");
     CHECK(legacy(replaced(vtk, "SCALARS material", "SCALARS cells")).empty());
-    has(legacy(replaced(vtk, "CELLS 3", "CELLS-3 1")), "\"CELLS-3\"");
-    has(legacy(vtk + "CELLS 1 5\n4 0 1 2 3\n"), "a second section CELLS");
+    says(legacy(replaced(vtk, "CELLS 3", "CELLS-3 1")), "\"CELLS-3\"");
+    says(legacy(vtk + "CELLS 1 5\n4 0 1 2 3\n"), "a second section CELLS");
 
-    has(xml("<VTKFile"), "cannot be read");
-    has(xml(vtu.substr(0, vtu.size() / 2)), "cannot be read");
-    has(xml(replaced(vtu, "NumberOfPoints=\"4\"", "NumberOfPoints=\"40000000000000\"")), "40000000000000");
-    has(xml(replaced(vtu, "NumberOfCells=\"1\"", "NumberOfCells=\"-1\"")), "-1");
-    has(xml(replaced(vtu, ">0 1 2 3<", ">0 1 2 9<")), "cell 1 has point 9");
-    has(xml(replaced(vtu, ">4<", ">400<")), "bad.vtu");
-    has(xml(replaced(vtu, ">10<", ">24<")), "vtkQuadraticTetra");
-    has(xml(replaced(vtu, ">0 0 0 1 0 0 0 1 0 0 0 1<", ">0 0 0 1 0 0 0 1 0 0 0<")), "cannot be read");
-    has(xml(replaced(vtu, "0 0 0 1<", "0 0 0 nan<")), "bad.vtu");
-    has(xml(vtk), "cannot be read");
-    has(legacy(vtu), "cannot be read");
+    says(xml("<VTKFile"), "cannot be read");
+    says(xml(vtu.substr(0, vtu.size() / 2)), "cannot be read");
+    says(xml(replaced(vtu, "NumberOfPoints=\"4\"", "NumberOfPoints=\"40000000000000\"")), "40000000000000");
+    says(xml(replaced(vtu, "NumberOfCells=\"1\"", "NumberOfCells=\"-1\"")), "-1");
+    says(xml(replaced(vtu, ">0 1 2 3<", ">0 1 2 9<")), "cell 1 has point 9");
+    says(xml(replaced(vtu, ">4<", ">400<")), "bad.vtu");
+    says(xml(replaced(vtu, ">10<", ">24<")), "vtkQuadraticTetra");
+    says(xml(replaced(vtu, ">0 0 0 1 0 0 0 1 0 0 0 1<", ">0 0 0 1 0 0 0 1 0 0 0<")), "cannot be read");
+    says(xml(replaced(vtu, "0 0 0 1<", "0 0 0 nan<")), "bad.vtu");
+    says(xml(vtk), "cannot be read");
+    says(legacy(vtu), "cannot be read");
 }
 
 TEST_CASE("a scale must be positive") {

@@ -173,9 +173,9 @@ TEST_CASE("what is wrong with a mesh is named and counted, and tidied where it c
     mesh.groups.push_back({"far", {0}});
     const auto found = problems_of(mesh);
     REQUIRE(found.size() == 2);
-    has(found[0], "node 1 at (5");
-    has(found[1], "tetrahedron 4 at");
-    has(found[1], "inside out; 2 in all");
+    says(found[0], "node 1 at (5");
+    says(found[1], "tetrahedron 4 at");
+    says(found[1], "inside out; 2 in all");
     CHECK(tidy(mesh) == 2);
     CHECK(problems_of(mesh).empty());
     CHECK(mesh.node.size() == 12);
