@@ -61,6 +61,22 @@ double Surface::renumber(const Spheres& old, const std::vector<std::int32_t>& no
     for (const auto& touch : kept) {
         touches[static_cast<std::size_t>(touch.sphere) / spheres_per_block].push_back(touch);
     }
+    // Whoever asks for a contact's law before spheres are listed anew, as a servo does, finds it under the new number.
+    std::vector<std::pair<std::int32_t, LooseContact>> listed;
+    for (std::size_t k = 0; k < sphere.size(); ++k) {
+        if (const auto number = now[static_cast<std::size_t>(sphere[k])]; number >= 0) {
+            listed.emplace_back(number, law[k]);
+        }
+    }
+    std::sort(listed.begin(), listed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    sphere.clear();
+    law.clear();
+    for (const auto& [number, its] : listed) {
+        sphere.push_back(number);
+        law.push_back(its);
+    }
+    near_first.assign(sphere.size() + 1, 0);
+    near_face.clear();
     return lost;
 }
 

@@ -111,6 +111,19 @@ TEST_CASE("a renumbering in the middle changes nothing but the order") {
     CHECK(turned.ledger().initial == Approx(straight.ledger().initial).epsilon(1e-12));
 }
 
+TEST_CASE("between a renumbering and the next search a surface still knows how stiff its contacts are") {
+    Model model = heap();
+    run(model, 3000);
+    const auto stiffness = [&] { return model.walls.surfaces[0].stiffness_along({0, 0, 1}, model.spheres); };
+    const double before = stiffness();
+    REQUIRE(before > 0.0);
+    exchange(model, true, [](std::size_t) { return false; });
+    CHECK(stiffness() == Approx(before).epsilon(1e-12)); // the same terms in another order
+    exchange(model, false, [](std::size_t k) { return k % 3 == 0; });
+    CHECK(stiffness() < before);
+    CHECK(stiffness() > 0.0);
+}
+
 TEST_CASE("the ledger closes while particles leave") {
     Model model = heap();
     run(model, 3000);
