@@ -132,9 +132,7 @@ void Model::search() {
     }
     search_anew_ = false;
     if (neighbours || surfaces) {
-        for (auto& body : walls.bodies) { // the bound looks at the skin as it is now
-            body.skin.follow(body.solid.position, body.solid.velocity, *team_);
-        }
+        follow_bodies(); // the bound looks at the skin as it is now
         keep_stable(first);
     }
 }
@@ -172,6 +170,12 @@ void Model::keep_stable(bool first) {
                                     " s) a deformable body has been stretched or crushed so far that "
                                     "its stable step fell from ",
                                     first_dt_, " s to ", dt_, " s: a membrane that bursts is too thin or too soft for its pressure"));
+    }
+}
+
+void Model::follow_bodies() {
+    for (auto& body : walls.bodies) {
+        body.skin.follow(body.solid.position, body.solid.velocity, *team_);
     }
 }
 

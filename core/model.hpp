@@ -102,6 +102,9 @@ class Model {
     void set_skin(double skin);
     [[nodiscard]] double skin() const { return skin_; } ///< m
 
+    /// Puts the skins of deformable bodies where their nodes are now, rather than at the last forces.
+    void follow_bodies();
+
     /// Hash (FNV-1a, 64 bits) of positions, velocities, spins and all bond and contact states: equal if and only if the bits are.
     [[nodiscard]] std::uint64_t state_hash() const;
 
@@ -221,6 +224,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     }
     visit("contact_i", contacts.i);
     visit("contact_j", contacts.j);
+    visit("contact_active", contacts.active); // who was apart and stays apart keeps even the signs of its zeros
     field("contact_slip", contacts.slip);
     field("contact_viscous", contacts.viscous);
     for (std::size_t p = 0; p < walls.platens.size(); ++p) {
@@ -253,6 +257,10 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
         visit("pressure_" + std::to_string(p), pressures[p].value);
         field("pressure_" + std::to_string(p) + "_force", pressures[p].force);
     }
+    visit("skin", skin_);
+    std::int64_t anew = search_anew_ ? 1 : 0;
+    visit("search_anew", anew);
+    search_anew_ = anew != 0;
     visit("body_gone", body_gone_);
     visit("bodies_weighed", bodies_weighed_);
     visit("travel", travel_.bound);

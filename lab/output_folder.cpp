@@ -111,6 +111,7 @@ void OutputFolder::begin() {
                              "events.csv",
                              "acoustic.csv",
                              "energy.csv",
+                             "particles.csv",
                              "checkpoint.h5",
                              "checkpoint.earlier.h5",
                              "rate_check.h5",

@@ -59,18 +59,26 @@ input::Json input_files(const Deck& deck) {
     for (const auto& region : deck.regions) {
         names.push_back(region.material.card);
     }
-    input::Json files = input::Json::object();
+    std::vector<std::string> files;
     for (const auto& name : names) {
         const auto base = name == deck.source ? std::filesystem::current_path() : std::filesystem::path(deck.folder);
-        const std::string file = name.empty() ? "" : (base / name).lexically_normal().string();
-        if (const std::string hash = file.empty() ? "" : hash_of_file(file); !hash.empty()) {
-            files[file] = hash;
-        }
+        files.push_back(name.empty() ? "" : (base / name).string());
     }
-    return files;
+    return hashes_of(files);
 }
 
 } // namespace
+
+input::Json hashes_of(const std::vector<std::string>& files) {
+    input::Json out = input::Json::object();
+    for (const auto& name : files) {
+        const std::string file = name.empty() ? "" : std::filesystem::absolute(name).lexically_normal().string();
+        if (const std::string hash = file.empty() ? "" : hash_of_file(file); !hash.empty()) {
+            out[file] = hash;
+        }
+    }
+    return out;
+}
 
 input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& folder) {
     input::Json j;

@@ -27,6 +27,9 @@ std::string hash_of_text(const std::string& text);
 /// Hash of a file's bytes as 16 hexadecimal digits; empty when it cannot be read.
 std::string hash_of_file(const std::string& file);
 
+/// Hashes of the files that can be read, by their names without detours.
+input::Json hashes_of(const std::vector<std::string>& files);
+
 /// manifest.json of a test that starts now: the resolved deck, versions, threads, seed, the files it was read from, hashes, and the command
 /// that runs it again. Its "status" is to be running, complete, interrupted or failed.
 input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& folder);

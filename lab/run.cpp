@@ -10,6 +10,7 @@
 #include "core/files/whole_file.hpp"
 #include "lab/clock.hpp"
 #include "lab/fields.hpp"
+#include "lab/keeper.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
@@ -19,7 +20,6 @@
 #include "reports/files.hpp"
 #include "reports/html.hpp"
 #include "reports/paraview.hpp"
-#include "specimens/checkpoint.hpp"
 
 namespace proveta {
 
@@ -85,68 +85,17 @@ std::string progress_line(const Bench& bench, const TestData& data, double done,
                        rate, 100.0 * done, Progress::duration(seconds * (1.0 / std::max(done, 1e-9) - 1.0)));
 }
 
-// A test's checkpoints in its folder, and what it keeps in them besides the state of the test itself.
-class Keeper {
-  public:
-    /// name: of the file; extra: what else is kept, and restored. Nothing else may have this name in the folder.
-    Keeper(const OutputFolder& out, const char* name, std::string owner, double every, VisitState extra)
-        : file_(out.file(name)), owner_(std::move(owner)), every_(every), extra_(std::move(extra)) {}
-
-    [[nodiscard]] bool there() const { return std::filesystem::exists(file_) || std::filesystem::exists(earlier_checkpoint(file_)); }
-
-    /// Has the hooks' test kept here, every so many seconds and where it must be, and restored from here if `go_on`.
-    void attach(TestHooks& hooks, bool go_on) {
-        hooks.keep = [this](const VisitState& state, bool must) {
-            if (must || (every_ > 0.0 && since(saved_) > every_)) {
-                save(state);
-            }
-        };
-        if (go_on && there()) {
-            hooks.restore = [this](const VisitState& state) { restore(state); };
+// Has a test kept, every so many seconds and where it must be, and restored if it is to go on.
+void attach(Keeper& keeper, TestHooks& hooks, bool go_on) {
+    hooks.keep = [&keeper](const VisitState& state, bool must) {
+        if (must || keeper.due()) {
+            keeper.save(state);
         }
+    };
+    if (go_on && keeper.there()) {
+        hooks.restore = [&keeper](const VisitState& state) { keeper.restore(state); };
     }
-
-    void save(const VisitState& state) {
-        const std::lock_guard lock(file_libraries());
-        save_checkpoint(file_, owner_, all_of(state));
-        saved_ = Clock::now();
-    }
-
-  private:
-    [[nodiscard]] VisitState all_of(const VisitState& state) const {
-        return [this, &state](StateVisitor& visit) {
-            extra_(visit);
-            state(visit);
-        };
-    }
-
-    // The last checkpoint, or the one before when that is damaged.
-    void restore(const VisitState& state) {
-        const std::lock_guard lock(file_libraries());
-        std::vector<input::Problem> problems;
-        for (const auto& file : {file_, earlier_checkpoint(file_)}) {
-            if (!std::filesystem::exists(file)) {
-                continue;
-            }
-            try {
-                load_checkpoint(file, owner_, all_of(state));
-                return;
-            } catch (const CheckpointError& e) {
-                const std::string what = e.what();
-                problems.push_back({file, "", what.starts_with(file + ": ") ? what.substr(file.size() + 2) : what,
-                                    "a whole checkpoint of this test", "run the deck anew: proveta run DECK --out NEW_FOLDER"});
-                spdlog::warn("{}; looking for the one before it", what);
-            }
-        }
-        throw input::InputError(problems);
-    }
-
-    std::string file_;
-    std::string owner_;
-    double every_;
-    VisitState extra_;
-    Clock::time_point saved_ = Clock::now();
-};
+}
 
 // Which test a checkpoint is of: deck and specimen, to the bit.
 std::string owner_of(const Deck& deck, const Bench& bench) { return hash_of_text(resolved(deck).dump()) + " " + hex(bench.specimen_hash); }
@@ -215,7 +164,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     hooks.fields = [&] { series.write(bench, deck.output.pictures); };
     // Who only reports stops where the checkpoint was made.
     hooks.interrupted = passage == Passage::report ? [] { return true; } : +[] { return interrupted(); };
-    keeper.attach(hooks, go_on);
+    attach(keeper, hooks, go_on);
     if (passage == Passage::report && !hooks.restore) {
         throw input::InputError({{out.path().string(), "", "no checkpoint", "a folder with one, from which a report can be made", ""}});
     }
@@ -232,7 +181,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
             }
         };
         again.interrupted = hooks.interrupted;
-        of_check.attach(again, go_on);
+        attach(of_check, again, go_on);
         data.rate_check = check_rate(deck, bench.specimen, data.curve, again);
         data.interrupted = !data.rate_check && hooks.interrupted();
     }

@@ -63,7 +63,7 @@ std::vector<double> wanted(const Specimen& s, const std::vector<double>& there, 
     if (graded != r.end() && graded->is_array() && graded->size() > 1) {
         out = graded_radii(sample, points_of(*graded), 0);
     } else if (const auto beds = r.find("particles");
-               beds != r.end() && beds->contains("grading") && beds->value("size", input::Json()) == "graded") {
+               beds != r.end() && beds->contains("grading") && input::text_at(*beds, "size") == "graded") {
         out = graded_radii(sample, points_of((*beds)["grading"]), 0);
     } else if (r.contains("radius_deviation") && r["radius_deviation"].is_number() && r["radius_deviation"] > 0.0) {
         out = normal_radii(sample, r["radius_deviation"], r["smallest_radius"], r["largest_radius"], 0);

@@ -8,7 +8,7 @@ namespace proveta {
 
 namespace {
 
-constexpr const char* checkpoint_format = "proveta checkpoint 2";
+constexpr const char* checkpoint_format = "proveta checkpoint 3";
 
 // Stores what it is shown, or restores it.
 template <class Go> class Visitor : public StateVisitor {

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <random>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,15 @@ class Random {
         for (std::size_t k = items.size(); k > 1; --k) {
             std::swap(items[k - 1], items[static_cast<std::size_t>(uniform() * static_cast<double>(k))]);
         }
+    }
+
+    /// Names where it stands in its stream, for a checkpoint.
+    template <class Visit> void visit_state(const std::string& name, Visit&& visit) {
+        std::ostringstream out;
+        out << engine_;
+        std::string text = out.str();
+        visit(name, text);
+        std::istringstream(text) >> engine_;
     }
 
   private:

@@ -1,6 +1,25 @@
 #include "core/particles/clusters.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace proveta {
+
+// Gives the spheres from `begin` on the numbers of their bodies.
+void Clusters::number(std::size_t spheres) {
+    const std::size_t bodies = mass.size();
+    const bool whole = bodies == 0 ? first.size() <= 1 && offset.empty()
+                                   : first.size() == bodies + 1 && std::is_sorted(first.begin(), first.end()) && first.back() == spheres &&
+                                         offset.size() == spheres - first.front();
+    if (!whole) {
+        throw std::runtime_error("the clusters do not fit the spheres");
+    }
+    begin = bodies == 0 ? 0 : first.front();
+    body_.clear();
+    for (std::size_t b = 0; b < bodies; ++b) {
+        body_.resize(first[b + 1] - begin, static_cast<std::int32_t>(b));
+    }
+}
 
 // The first cluster to come fixes where they begin.
 void Clusters::open(const Spheres& spheres) {

@@ -49,11 +49,50 @@ struct Clusters {
 
     /// Calls visit as `Model::visit_state` does.
     template <class Visit> void visit_state(Visit&& visit);
+    /// The same for which clusters there are and what they are, without where they are. Throws std::runtime_error when that is no set of
+    /// clusters at the end of so many spheres.
+    template <class Visit> void visit_members(std::size_t spheres, Visit&& visit);
 
   private:
     void open(const Spheres& spheres);
+    void number(std::size_t spheres);
     std::vector<std::int32_t> body_; // of each sphere from `begin` on
 };
+
+template <class Visit> void Clusters::visit_members(std::size_t spheres, Visit&& visit) {
+    std::vector<std::int32_t> begins(first.begin(), first.end());
+    std::vector<double> flat;
+    std::vector<double> arms;
+    for (std::size_t k = 0; k < size(); ++k) {
+        flat.push_back(mass[k]);
+        flat.insert(flat.end(), start[k].begin(), start[k].end());
+        flat.insert(flat.end(), turning[k].inertia.begin(), turning[k].inertia.end());
+    }
+    for (const Vec3& arm : offset) {
+        arms.insert(arms.end(), arm.begin(), arm.end());
+    }
+    visit("cluster_first", begins);
+    visit("cluster_members", flat);
+    visit("cluster_offsets", arms);
+    first.assign(begins.begin(), begins.end());
+    const std::size_t n = flat.size() / 7;
+    mass.resize(n);
+    start.resize(n);
+    position.resize(n, Vec3::Zero());
+    velocity.resize(n, Vec3::Zero());
+    turning.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const double* at = &flat[7 * k];
+        mass[k] = at[0];
+        start[k] = Vec3(at[1], at[2], at[3]);
+        turning[k].inertia = Vec3(at[4], at[5], at[6]);
+    }
+    offset.resize(arms.size() / 3);
+    for (std::size_t k = 0; k < offset.size(); ++k) {
+        offset[k] = Vec3(arms[3 * k], arms[3 * k + 1], arms[3 * k + 2]);
+    }
+    number(spheres);
+}
 
 template <class Visit> void Clusters::visit_state(Visit&& visit) {
     std::vector<double> flat;

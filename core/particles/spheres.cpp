@@ -2,6 +2,7 @@
 
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
 
 namespace proveta {
 
@@ -35,6 +36,20 @@ void Spheres::add(const Vec3& centre, double r, double density, int cohesive_gro
     group.push_back(cohesive_group);
     material.push_back(material_index);
     id.push_back(static_cast<std::int64_t>(id.size()));
+}
+
+// What moves becomes as long as what there is.
+void Spheres::fit_members() {
+    const std::size_t n = radius.size();
+    for (const std::size_t other :
+         {id.size(), mass.size(), inertia.size(), group.size(), material.size(), start.x.size(), start.y.size(), start.z.size()}) {
+        if (other != n) {
+            throw std::runtime_error("the quantities of the spheres are not as many each");
+        }
+    }
+    for (auto* field : {&position, &velocity, &spin}) {
+        field->resize(n);
+    }
 }
 
 void Spheres::append(const Spheres& from, std::size_t k) {

@@ -38,9 +38,30 @@ struct Spheres {
 
     /// Appends a sphere at rest. centre and radius in m, density in kg/m3.
     void add(const Vec3& centre, double r, double density, int cohesive_group = 0, int material_index = 0);
+    /// As `Model::visit_state`, for which spheres there are and what they are, without where they are. Throws std::runtime_error when
+    /// the quantities are not as many each.
+    template <class Visit> void visit_members(Visit&& visit);
     /// Appends a sphere of another set as it is.
     void append(const Spheres& from, std::size_t k);
+
+  private:
+    void fit_members();
 };
+
+template <class Visit> void Spheres::visit_members(Visit&& visit) {
+    std::vector<double> numbers(id.begin(), id.end()); // exact up to 2^53
+    visit("member_id", numbers);
+    visit("member_radius", radius);
+    visit("member_mass", mass);
+    visit("member_inertia", inertia);
+    visit("member_group", group);
+    visit("member_material", material);
+    visit("member_start_x", start.x);
+    visit("member_start_y", start.y);
+    visit("member_start_z", start.z);
+    id.assign(numbers.begin(), numbers.end());
+    fit_members();
+}
 
 /// m; 0 without any.
 double mean_radius(const Spheres& spheres);

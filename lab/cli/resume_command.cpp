@@ -9,6 +9,7 @@
 #include "lab/cli/commands.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
+#include "lab/scene/run_scene.hpp"
 #include "lab/series/plan.hpp"
 #include "lab/series/run_series.hpp"
 
@@ -28,23 +29,33 @@ struct ResumeArguments {
     throw input::InputError({{folder, "", found, expected, hint}});
 }
 
-// A test or a series, from the checkpoints of its folders.
-int go_on_with_tests(const ResumeArguments& a, const std::string& typed, const input::Json& manifest, Passage passage) {
+// A test, a series or a scene, from the checkpoints of its folders.
+int go_on_with(const ResumeArguments& a, const std::string& typed, const input::Json& manifest, Passage passage) {
     const std::string file = (fs::path(a.folder) / "manifest.json").string();
     const std::string status = input::text_at(manifest, "status");
     if (status == "complete" && passage == Passage::go_on) {
         fmt::print("{} is complete: there is nothing to go on with\n", a.folder);
         return 0;
     }
-    if (status == "failed" && passage == Passage::go_on && manifest.contains("proveta_manifest")) {
-        refuse(a.folder, "a calculation that failed", "one that was stopped: from the same state it would fail again",
-               fmt::format("change what its report names as the cause: proveta run {} --set KEY=VALUE --out NEW_FOLDER", file));
+    const bool scene = manifest.contains("proveta_scene_manifest");
+    if (status == "failed" && !manifest.contains("proveta_series_manifest")) {
+        refuse(a.folder, "a calculation that failed",
+               passage == Passage::go_on
+                   ? "one that was stopped: from the same state it would fail again"
+                   : "one that was stopped or has ended: the page tells of the failure, and its checkpoint is from before",
+               fmt::format("change what its report names as the cause: proveta {} {} --set KEY=VALUE --out NEW_FOLDER",
+                           scene ? "scene" : "run", file));
     }
     for (const auto& change : changes_since(manifest)) {
         spdlog::warn("{}", change);
     }
-    const Plan plan = read_plan({file}, {});
     const RunOptions options{a.folder, typed, a.quiet, passage};
+    if (scene) {
+        const Scene read = read_scene(file, {});
+        catch_interrupts();
+        return exit_code(run_scene(read, options));
+    }
+    const Plan plan = read_plan({file}, {});
     catch_interrupts();
     return exit_code(plan.series ? run_series(plan, options, omp_get_max_threads()) : run_test(plan.members.front().deck, options));
 }
@@ -72,21 +83,19 @@ int pass_through(const ResumeArguments& a, const std::string& typed, Passage pas
     if (manifest.contains("proveta_calibration_manifest")) {
         return carry_out_calibration(trials, typed);
     }
-    if (manifest.contains("proveta_scene_manifest")) {
-        refuse(a.folder, "a scene", "a test, a series, a sweep or a calibration: scenes keep no checkpoints",
-               fmt::format("play it again: proveta scene {} --out NEW_FOLDER", file.string()));
-    }
-    if (!manifest.contains("proveta_manifest") && !manifest.contains("proveta_series_manifest")) {
+    const bool single = manifest.contains("proveta_manifest") || manifest.contains("proveta_scene_manifest");
+    if (!single && !manifest.contains("proveta_series_manifest")) {
         refuse(file.string(), "a JSON file of another kind", "a manifest that this program wrote", "");
     }
-    return go_on_with_tests(a, typed, manifest, passage);
+    return go_on_with(a, typed, manifest, passage);
 }
 
 } // namespace
 
 void add_resume(CLI::App& app, const std::string& typed, Command& chosen) {
     auto a = std::make_shared<ResumeArguments>();
-    auto* command = app.add_subcommand("resume", "go on with a run, series, sweep or calibration that was stopped, to the same results");
+    auto* command =
+        app.add_subcommand("resume", "go on with a run, series, scene, sweep or calibration that was stopped, to the same results");
     command->add_option("folder", a->folder, "its result folder")->required();
     command->add_option("--threads", a->threads, "number of threads; results do not depend on it")->check(CLI::Range(1, 1024));
     command->add_flag("--quiet", a->quiet, "no progress, no log but warnings and errors");

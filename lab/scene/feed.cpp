@@ -192,6 +192,27 @@ bool Feed::stays(const Vec3& at) {
     return true;
 }
 
+void Feed::visit_state(StateVisitor& visit) {
+    const auto count = [&](const std::string& name, auto& value) {
+        auto whole = static_cast<std::int64_t>(value);
+        visit("feed_" + name, whole);
+        value = static_cast<std::remove_reference_t<decltype(value)>>(whole);
+    };
+    random_.visit_state("feed_random", visit);
+    visit("feed_next_look", next_look_);
+    for (std::size_t k = 0; k < counts_.size(); ++k) {
+        count(fmt::format("placed_{}", k), counts_[k].placed);
+        count(fmt::format("left_out_{}", k), counts_[k].left_out);
+    }
+    for (std::size_t k = 0; k < taken_.size(); ++k) {
+        count(fmt::format("taken_{}", k), taken_[k]);
+    }
+    count("lost", lost_);
+    count("next_id", next_id_);
+    count("looked_at", looked_at_);
+    count("sorted_at", sorted_at_);
+}
+
 // By sphere; of a cluster its first sphere tells.
 std::vector<char> Feed::who_stays(const Spheres& spheres, const Clusters& clusters) {
     std::vector<char> out(spheres.size(), 1);
@@ -215,6 +236,7 @@ void Feed::look_after(Model& model) {
     Population bodies;
     Population alone;
     if (anyone_due(model.time())) {
+        model.follow_bodies();
         put_in(model.time(), model.walls, model.spheres, bodies, alone);
     }
     const auto stay = who_stays(model.spheres, model.clusters);

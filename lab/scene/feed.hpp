@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model.hpp"
+#include "core/state.hpp"
 #include "lab/scene/particle_kinds.hpp"
 #include "lab/scene/room.hpp"
 #include "specimens/random.hpp"
@@ -44,6 +45,9 @@ class Feed {
     [[nodiscard]] std::size_t lost() const { return lost_; }                       ///< out of the domain
     [[nodiscard]] bool finished() const;                                           ///< all have come
     [[nodiscard]] const std::vector<ParticleKind>& kinds() const { return kinds_; }
+
+    /// Names all that changes on the way.
+    void visit_state(StateVisitor& visit);
 
   private:
     void place(const ParticleKind& kind, std::size_t number, const PlannedParticle& p, const Vec3& at, const rotation::Quaternion& attitude,

@@ -1,20 +1,19 @@
 #include "lab/scene/run_scene.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <filesystem>
 
-#include "lab/clock.hpp"
-#include "lab/fields.hpp"
+#include "core/files/whole_file.hpp"
+#include "lab/keeper.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 #include "lab/results.hpp"
-#include "lab/scene/scene_play.hpp"
-#include "lab/scene/scene_report.hpp"
-#include "lab/scene/vectors.hpp"
+#include "lab/scene/performance.hpp"
+#include "lab/scene/scene_samples.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
 
@@ -24,151 +23,104 @@ namespace {
 
 using input::Json;
 
-Json manifest_of(const Scene& scene, const RunOptions& options, const std::string& status, const std::string& started) {
+Json manifest_of(const Scene& scene, const RunOptions& options) {
+    std::vector<std::string> own{scene.source};
+    for (const auto& m : scene.materials) {
+        own.push_back((std::filesystem::path(scene.folder) / m.material.card).string());
+    }
     return {{"proveta_scene_manifest", 1},
-            {"status", status},
+            {"status", "running"},
             {"version", version()},
             {"compiler", PROVETA_COMPILER},
             {"build", PROVETA_BUILD},
             {"command", options.command},
-            {"started", started},
-            {"written", now_utc()},
+            {"started", now_utc()},
+            {"resumed", Json::array()},
+            {"threads", omp_get_max_threads()},
             {"repeat_with", fmt::format("proveta scene {}/manifest.json --out NEW_FOLDER", options.out)},
+            {"files", hashes_of(own)},
+            {"files_read_again", hashes_of(files_of(scene))},
             {"scene", resolved(scene)}};
 }
 
-// Plays a scene and keeps what is seen.
-class Performance {
-  public:
-    Performance(const Scene& scene, ScenePlay& play, const OutputFolder& out, Progress& progress)
-        : scene_(scene), play_(play), out_(out), progress_(progress), stage_(stage_of(scene, play.model().walls)) {
-        seen_.curve = empty_scene_curve(play.model());
-        seen_.energy = empty_scene_energy();
+void log_start(const Model& m) {
+    std::size_t faces = 0;
+    for (const auto& s : m.walls.surfaces) {
+        faces += s.geometry.mesh.faces();
     }
+    spdlog::info("{} particles at the start, {} surfaces of {} faces; step {:.3g} s", state_of(m).particles, m.walls.surfaces.size(), faces,
+                 m.dt());
+}
 
-    SceneSeen go() {
-        try {
-            while (seen_.stopped_by.empty()) {
-                const double time = play_.model().time();
-                const auto due = [&](std::int64_t done, std::int64_t all) {
-                    return time >= scene_.stop.time * static_cast<double>(done) / static_cast<double>(all);
-                };
-                const bool sample = due(samples_, scene_.output.samples);
-                play_.step(sample);
-                if (sample) {
-                    look();
-                }
-                if (scene_.output.fields > 0 && due(fields_, scene_.output.fields)) {
-                    write_fields();
-                }
-                if (interrupted()) {
-                    seen_.stopped_by = "interrupted by the user";
-                    seen_.status = "interrupted";
-                }
-            }
-            play_.step(true); // the end itself, measured
-        } catch (const NumericalFailure& e) {
-            seen_.stopped_by = std::string("the calculation failed: ") + e.what();
-            seen_.status = "failed";
+// Writes all but the fields, the manifest last: who finds it complete finds all of it.
+void write_results(const Scene& scene, const ScenePlay& play, const SceneSeen& seen, const OutputFolder& out, Json& sheet) {
+    const report::Record record = scene_record(scene, play, seen);
+    report::write_file(out.file("curve.csv"), report::to_csv(seen.curve));
+    report::write_file(out.file("energy.csv"), report::to_csv(seen.energy));
+    report::write_file(out.file("particles.csv"), report::to_csv(particle_table(play.model())));
+    report::write_json(out.file("summary.json"), scene_summary(record, play));
+    report::write_file(out.file("report.html"), report::to_html(record));
+    const PhaseTimes& t = play.model().phase_times();
+    sheet["status"] = seen.status;
+    sheet["written"] = now_utc();
+    sheet["wall_time_s"] = seen.seconds;
+    sheet["phase_times_s"] = {{"search", t.search}, {"forces", t.forces}, {"motion", t.motion}};
+    report::write_json(out.file("manifest.json"), sheet);
+    fmt::print("{}results in {}\n", as_text(record), out.path().string());
+}
+
+RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder& out, Progress& progress) {
+    progress.show("making surfaces and particles");
+    ScenePlay play(scene);
+    progress.end_line();
+    const auto log = [&](const char* line) {
+        if (!options.quiet) {
+            spdlog::info("{}", line);
         }
-        seen_.seconds = since(begin_);
-        if (seen_.status != "failed" || seen_.curve.rows.empty()) {
-            sample_scene(play_.model(), play_.feed(), seen_.curve, seen_.energy);
-        }
-        if (scene_.output.fields > 0) {
-            write_fields();
-        }
-        picture("At the end");
-        for (const auto& box : scene_.measures) {
-            seen_.measures.push_back(content_of(box, play_.model()));
-        }
-        return std::move(seen_);
+    };
+    Json sheet = manifest_of(scene, options);
+    Keeper keeper(out, "checkpoint.h5", hash_of_text(sheet["scene"].dump() + sheet["files_read_again"].dump()),
+                  scene.output.checkpoint_every, [](StateVisitor&) {});
+    const bool go_on = options.passage != Passage::begin;
+    if (options.passage == Passage::report && !keeper.there()) {
+        throw input::InputError({{out.path().string(), "", "no checkpoint", "a folder with one, from which a report can be made", ""}});
     }
-
-  private:
-    void picture(const std::string& when) {
-        for (auto& p : scene_slices(play_.model(), vector(scene_.gravity), stage_, when)) {
-            seen_.pictures.push_back(std::move(p));
+    Performance performance(scene, play, out, progress, keeper, options.passage == Passage::report);
+    if (go_on) {
+        out.go_on();
+        sheet = manifest_to_go_on_with(out.file("manifest.json"), sheet, options.passage == Passage::go_on);
+        if (keeper.there()) {
+            performance.restore();
         }
+        log(keeper.there() ? "going on from the last checkpoint" : "no checkpoint yet: the scene begins anew");
+    } else {
+        out.begin();
     }
-
-    void look() {
-        const Model& m = play_.model();
-        sample_scene(m, play_.feed(), seen_.curve, seen_.energy);
-        if (samples_ == 0) {
-            picture("At the start");
-        } else if (samples_ == scene_.output.samples / 2) {
-            picture(fmt::format("After {:.3g} s", m.time()));
-        }
-        ++samples_;
-        const double done = m.time() / scene_.stop.time;
-        const double seconds = since(begin_);
-        const double spheres = static_cast<double>(m.spheres.size()) * static_cast<double>(m.steps());
-        progress_.show(fmt::format("time {:.4g} s  {} particles  speed {:.3g} m/s  {:.3g} sphere-steps/s  {:.0f} %  at most {} left",
-                                   m.time(), seen_.curve.rows.back()[1], seen_.curve.rows.back()[5], spheres / std::max(seconds, 1e-9),
-                                   100.0 * done, Progress::duration(seconds * (1.0 / std::max(done, 1e-9) - 1.0))));
-        seen_.stopped_by = play_.over();
+    if (!options.quiet) {
+        log_start(play.model());
     }
-
-    void write_fields() {
-        std::filesystem::create_directories(out_.path() / "fields");
-        const Model& m = play_.model();
-        std::vector<std::pair<std::string, report::Geometry>> parts{{"particles", particle_fields(m)}, {"surfaces", surface_fields(m)}};
-        if (!m.walls.bodies.empty()) {
-            parts.emplace_back("bodies", body_fields(m));
-        }
-        for (const auto& [part, geometry] : parts) {
-            const std::string file = fmt::format("fields/{}_{:04}.vtp", part, fields_);
-            report::write_vtp(out_.file(file), geometry);
-            series_.push_back({play_.model().time(), part, file});
-        }
-        ++fields_;
-        report::write_file(out_.file("series.pvd"), report::to_pvd(series_));
+    sheet["status"] = "running";
+    report::write_json(out.file("manifest.json"), sheet);
+    const SceneSeen seen = performance.go();
+    progress.end_line();
+    write_results(scene, play, seen, out, sheet);
+    if (seen.status == "interrupted") {
+        spdlog::warn("interrupted; to go on: proveta resume {}", out.path().string());
     }
-
-    const Scene& scene_;
-    ScenePlay& play_;
-    const OutputFolder& out_;
-    Progress& progress_;
-    SceneSeen seen_;
-    Clock::time_point begin_ = Clock::now();
-    Eigen::AlignedBox3d stage_; // that pictures show
-    std::int64_t samples_ = 0;
-    std::int64_t fields_ = 0;
-    std::vector<report::SeriesEntry> series_;
-};
+    return seen.status == "complete" ? RunStatus::complete : seen.status == "failed" ? RunStatus::failed : RunStatus::interrupted;
+}
 
 } // namespace
 
 RunStatus run_scene(const Scene& scene, const RunOptions& options) {
     OutputFolder out(options.out);
     Progress progress(options.quiet);
-    const std::string started = now_utc();
-    progress.show("making surfaces and particles");
-    ScenePlay play(scene);
-    progress.end_line();
-    if (!options.quiet) {
-        const Model& m = play.model();
-        std::size_t faces = 0;
-        for (const auto& s : m.walls.surfaces) {
-            faces += s.geometry.mesh.faces();
-        }
-        spdlog::info("{} particles at the start, {} surfaces of {} faces; step {:.3g} s", state_of(m).particles, m.walls.surfaces.size(),
-                     faces, m.dt());
+    try {
+        return play_scene(scene, options, out, progress);
+    } catch (const FileError& e) {
+        progress.end_line();
+        throw FileError(fmt::format("{}; once that is mended, go on with: proveta resume {}", e.what(), out.path().string()));
     }
-    out.begin();
-    report::write_json(out.file("manifest.json"), manifest_of(scene, options, "running", started));
-    const SceneSeen seen = Performance(scene, play, out, progress).go();
-    progress.end_line();
-    const report::Record record = scene_record(scene, play, seen);
-    report::write_file(out.file("curve.csv"), report::to_csv(seen.curve));
-    report::write_file(out.file("energy.csv"), report::to_csv(seen.energy));
-    report::write_file(out.file("particles.csv"), report::to_csv(particle_table(play.model())));
-    report::write_json(out.file("manifest.json"), manifest_of(scene, options, seen.status, started));
-    report::write_json(out.file("summary.json"), scene_summary(record, play, seen));
-    report::write_file(out.file("report.html"), report::to_html(record));
-    fmt::print("{}results in {}\n", as_text(record), out.path().string());
-    return seen.status == "complete" ? RunStatus::complete : seen.status == "failed" ? RunStatus::failed : RunStatus::interrupted;
 }
 
 void try_scene(const Scene& scene) { ScenePlay play(scene); }

@@ -6,7 +6,8 @@
 
 namespace proveta {
 
-/// Plays the scene, writes its folder, prints the results on stdout. Throws InputError before anything is written when the scene is wrong.
+/// Plays the scene, or plays on from the checkpoint of its folder, writes the folder, prints the results on stdout. Throws InputError
+/// before anything is written when the scene is wrong, or when the checkpoints are not of it, and FileError.
 RunStatus run_scene(const Scene& scene, const RunOptions& options);
 
 /// Looks at what only the making tells: files, forms, room. Throws InputError.

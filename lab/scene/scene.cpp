@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lab/deck.hpp"
+#include "lab/provenance.hpp"
 #include "lab/scene/scene_check.hpp"
 
 namespace proveta {
@@ -147,6 +148,7 @@ void declare(input::Visitor& v, SceneNumerics& n) {
 void declare(input::Visitor& v, SceneOutput& o) {
     v.integer("samples", o.samples, 10, 1000000, "rows of curve.csv");
     v.integer("fields", o.fields, 0, 10000, "VTK field files; 0: none");
+    v.number("checkpoint_every", o.checkpoint_every, Unit::time, at_least(0), "wall time between checkpoints; 0: only at the end");
 }
 
 void declare(input::Visitor& v, Scene& s) {
@@ -173,13 +175,33 @@ int Scene::material(const std::string& name) const {
     return 0;
 }
 
+namespace {
+
+// What a manifest promises to repeat it cannot with other files.
+void refuse_changed(const Json& hashes, const std::string& manifest, input::Problems& problems) {
+    if (!hashes.is_object()) {
+        return;
+    }
+    for (const auto& [name, then] : hashes.items()) {
+        const std::string now = hash_of_file(name);
+        if (then.is_string() && now != then.get<std::string>()) {
+            problems.push_back({manifest, "/files_read_again", name + (now.empty() ? ", which has gone" : ", whose hash is " + now),
+                                "the file that the scene was played with, of hash " + then.get<std::string>(),
+                                "with another one it is another scene: give the scene's own file instead of the manifest"});
+        }
+    }
+}
+
+} // namespace
+
 Scene read_scene(const std::string& file, const std::vector<std::string>& settings) {
     Json json = input::load_json(file);
+    input::Problems problems;
     if (json.is_object() && json.contains("proveta_scene_manifest") && json.contains("scene")) {
+        refuse_changed(json.value("files_read_again", Json::object()), file, problems);
         json = Json(json["scene"]);
     }
     apply_settings(json, settings);
-    input::Problems problems;
     Scene scene;
     scene.source = file;
     scene.folder = std::filesystem::absolute(file).parent_path().string();
@@ -203,23 +225,46 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     return scene;
 }
 
-Json resolved(const Scene& scene) {
-    Scene copy = scene;
-    const auto absolute = [&](std::string& name) {
+namespace {
+
+// Calls use(name) for the name of each file that the scene has, to be read or changed.
+template <class Use> void each_file(Scene& scene, const Use& use) {
+    const auto given = [&](std::string& name) {
         if (!name.empty()) {
-            name = std::filesystem::absolute(std::filesystem::path(scene.folder) / name).lexically_normal().string();
+            use(name);
         }
     };
-    for (auto& s : copy.surfaces) {
-        absolute(s.file);
-        absolute(s.motion.file);
+    for (auto& s : scene.surfaces) {
+        given(s.file);
+        given(s.motion.file);
     }
-    for (auto& b : copy.bodies) {
-        absolute(b.file);
+    for (auto& b : scene.bodies) {
+        given(b.file);
     }
-    for (auto& p : copy.particles) {
-        absolute(p.file);
+    for (auto& p : scene.particles) {
+        given(p.file);
     }
+}
+
+// The scene with its files named absolutely.
+Scene absolute(Scene scene) {
+    each_file(scene, [&](std::string& name) {
+        name = std::filesystem::absolute(std::filesystem::path(scene.folder) / name).lexically_normal().string();
+    });
+    return scene;
+}
+
+} // namespace
+
+std::vector<std::string> files_of(const Scene& scene) {
+    Scene copy = absolute(scene);
+    std::vector<std::string> out;
+    each_file(copy, [&](const std::string& name) { out.push_back(name); });
+    return out;
+}
+
+Json resolved(const Scene& scene) {
+    Scene copy = absolute(scene);
     Json json = input::write(copy);
     for (auto& material : json["materials"]) {
         material["material"]["card"] = custom_card;

@@ -94,6 +94,7 @@ struct SceneNumerics {
 struct SceneOutput {
     std::int64_t samples = 200;
     std::int64_t fields = 10;
+    double checkpoint_every = 30.0; ///< s of wall time; 0: only at the end
 };
 
 /// A scene as read, every default filled in.
@@ -125,6 +126,9 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
 
 /// The scene with every value filled in, SI units, its files named absolutely; reading it gives the same scene.
 input::Json resolved(const Scene& scene);
+
+/// The files that are read again whenever the scene is set up, absolutely: surfaces, bodies, forms, tables of places.
+std::vector<std::string> files_of(const Scene& scene);
 
 /// JSON schema of scenes.
 input::Json scene_schema();

@@ -112,6 +112,22 @@ void ScenePlay::choose_skin() {
     }
 }
 
+// First who is there, so that there is room for what they do.
+void ScenePlay::visit_state(StateVisitor& visit) {
+    feed_.visit_state(visit);
+    visit("skin_chosen_at", chosen_at_);
+    visit("searches_until_then", searches_);
+    Spheres spheres = model_->spheres;
+    Clusters clusters = model_->clusters;
+    spheres.visit_members(visit);
+    clusters.visit_members(spheres.size(), visit);
+    if (spheres.id != model_->spheres.id) { // those that are being restored are others than those of the start
+        const std::vector<std::int32_t> all_new(spheres.size(), -1);
+        model_->repopulate(std::move(spheres), std::move(clusters), all_new);
+    }
+    model_->visit_state(visit);
+}
+
 std::string ScenePlay::over() const {
     if (model_->time() >= scene_.stop.time) {
         return "its time is over";

@@ -22,6 +22,11 @@ class ScenePlay {
     /// Whether it has come to its end; empty: not yet. Looks at the particles: to be asked at samples.
     [[nodiscard]] std::string over() const;
 
+    /// Names all that steps to come depend on besides the scene and its files.
+    void visit_state(StateVisitor& visit);
+    /// Rebuilds what follows from that, once it has been restored.
+    void restored() { model_->restored(); }
+
     [[nodiscard]] const Model& model() const { return *model_; }
     [[nodiscard]] const Feed& feed() const { return feed_; }
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; } ///< on surfaces from files

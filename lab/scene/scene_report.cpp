@@ -202,7 +202,7 @@ report::Record scene_record(const Scene& scene, const ScenePlay& play, const Sce
     return r;
 }
 
-input::Json scene_summary(const report::Record& r, const ScenePlay& play, const SceneSeen& seen) {
+input::Json scene_summary(const report::Record& r, const ScenePlay& play) {
     const Model& m = play.model();
     input::Json j;
     j["title"] = r.title;
@@ -218,9 +218,6 @@ input::Json scene_summary(const report::Record& r, const ScenePlay& play, const 
     j["time_step_s"] = m.dt();
     j["time_s"] = m.time();
     j["final_state_hash"] = hex(m.state_hash());
-    j["wall_time_s"] = seen.seconds;
-    j["phase_times_s"] = {{"search", m.phase_times().search}, {"forces", m.phase_times().forces}, {"motion", m.phase_times().motion}};
-    j["threads"] = omp_get_max_threads();
     return j;
 }
 

@@ -17,7 +17,7 @@ struct SceneSeen {
     std::vector<BoxContent> measures;
     std::string status = "complete"; ///< or interrupted, or failed
     std::string stopped_by;
-    double seconds = 0.0; ///< wall time of the steps
+    double seconds = 0.0; ///< wall time of the steps, over all processes that took some
 };
 
 /// particles.csv: where every sphere is at the end.
@@ -27,6 +27,6 @@ report::Table particle_table(const Model& model);
 report::Record scene_record(const Scene& scene, const ScenePlay& play, const SceneSeen& seen);
 
 /// summary.json.
-input::Json scene_summary(const report::Record& record, const ScenePlay& play, const SceneSeen& seen);
+input::Json scene_summary(const report::Record& record, const ScenePlay& play);
 
 } // namespace proveta

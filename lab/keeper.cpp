@@ -1,0 +1,51 @@
+#include "lab/keeper.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <mutex>
+
+#include "core/input/json.hpp"
+#include "lab/run.hpp"
+
+namespace proveta {
+
+Keeper::Keeper(const OutputFolder& out, const char* name, std::string owner, double every, VisitState extra)
+    : file_(out.file(name)), owner_(std::move(owner)), every_(every), extra_(std::move(extra)) {}
+
+bool Keeper::there() const { return std::filesystem::exists(file_) || std::filesystem::exists(earlier_checkpoint(file_)); }
+
+void Keeper::save(const VisitState& state) {
+    const std::lock_guard lock(file_libraries());
+    save_checkpoint(file_, owner_, all_of(state));
+    saved_ = Clock::now();
+}
+
+void Keeper::restore(const VisitState& state) const {
+    const std::lock_guard lock(file_libraries());
+    std::vector<input::Problem> problems;
+    for (const auto& file : {file_, earlier_checkpoint(file_)}) {
+        if (!std::filesystem::exists(file)) {
+            continue;
+        }
+        try {
+            load_checkpoint(file, owner_, all_of(state));
+            return;
+        } catch (const CheckpointError& e) {
+            const std::string what = e.what();
+            problems.push_back({file, "", what.starts_with(file + ": ") ? what.substr(file.size() + 2) : what,
+                                "a whole checkpoint of this calculation", "begin anew, with another folder: --out NEW_FOLDER"});
+            spdlog::warn("{}; looking for the one before it", what);
+        }
+    }
+    throw input::InputError(problems);
+}
+
+VisitState Keeper::all_of(const VisitState& state) const {
+    return [this, &state](StateVisitor& visit) {
+        extra_(visit);
+        state(visit);
+    };
+}
+
+} // namespace proveta
