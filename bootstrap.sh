@@ -50,7 +50,10 @@ test)
     for tool in ajv@8 playwright-core@1; do
         [ -d "$node_tools/node_modules/${tool%@*}" ] || npm install --silent --no-audit --no-fund --prefix "$node_tools" "$tool" >/dev/null
     done
-    PROVETA_NODE_MODULES="$PWD/$node_tools/node_modules" ctest --preset release -L 'unit|verification|system' -j 2
+    # As many tests side by side as there are processors, each on one thread unless it asks for more: threads that wait for each other on
+    # shared processors take more than twice as long.
+    OMP_NUM_THREADS=1 PROVETA_NODE_MODULES="$PWD/$node_tools/node_modules" \
+        ctest --preset release -L 'unit|verification|system' -j "$(nproc)"
     ;;
 docs)
     install_packages

@@ -104,33 +104,20 @@ void OutputFolder::begin() {
     for (const auto& member : members_in(path_)) {
         fs::remove_all(member);
     }
-    for (const char* name : {"report.html",
-                             "summary.json",
-                             "manifest.json",
-                             "curve.csv",
-                             "events.csv",
-                             "acoustic.csv",
-                             "energy.csv",
-                             "particles.csv",
-                             "checkpoint.h5",
-                             "checkpoint.earlier.h5",
-                             "rate_check.h5",
-                             "rate_check.earlier.h5",
-                             "series.pvd",
-                             "series.csv",
-                             "mean_curves",
-                             "fields",
-                             "pictures",
-                             "spheres.pvd",
-                             "bonds.pvd",
-                             "platens.pvd",
-                             "membrane.pvd",
-                             "views.py",
-                             "table.csv",
-                             "table.h5",
-                             "failures.csv",
-                             "sensitivity.csv",
-                             "curve_sensitivity.csv"}) {
+    for (const char* name : {"report.html",     "summary.json",
+                             "manifest.json",   "curve.csv",
+                             "events.csv",      "acoustic.csv",
+                             "energy.csv",      "particles.csv",
+                             "checkpoint.h5",   "checkpoint.earlier.h5",
+                             "rate_check.h5",   "rate_check.earlier.h5",
+                             "series.pvd",      "series.csv",
+                             "study.csv",       "mean_curves",
+                             "fields",          "pictures",
+                             "spheres.pvd",     "bonds.pvd",
+                             "platens.pvd",     "membrane.pvd",
+                             "views.py",        "table.csv",
+                             "table.h5",        "failures.csv",
+                             "sensitivity.csv", "curve_sensitivity.csv"}) {
         fs::remove_all(path_ / name);
     }
     fs::create_directories(path_); // a series that was cleared may have held it

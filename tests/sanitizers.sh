@@ -7,8 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-asan) preset=asan-ubsan tests="test_unit fuzz_replay" labels=unit ;;
-tsan) preset=tsan tests="" labels="" ;;
+asan) preset=asan-ubsan tests="test_unit fuzz_replay" labels=unit threads=1 ;;
+tsan) preset=tsan tests="" labels="" threads=2 ;;
 *) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac
 if [ "${2:-}" = whole ]; then
@@ -20,7 +20,7 @@ cmake --preset "$preset" >/dev/null
 # shellcheck disable=SC2086
 ninja -C "$build" proveta $tests
 
-export OMP_NUM_THREADS=2
+export OMP_NUM_THREADS=$threads # tests side by side want no more than one, races no fewer than two
 # OpenMP's runtime is not compiled for the thread sanitizer. Its tool Archer, which it loads by itself where it finds the sanitizer, tells of
 # its barriers; what the sanitizer sees inside the runtime is to be left out. With both, loops without races are silent and races are not;
 # without either there are false alarms. The team of core/parallel has threads of its own, which need no help.
@@ -52,4 +52,4 @@ for test in ucs brazilian direct-tension triaxial hydrostatic oedometric granula
 done
 echo "scene"
 "$build"/proveta scene examples/silo.json --set stop.time=0.02 --threads 2 --quiet --out "$out"/silo >/dev/null
-[ -z "$labels" ] || ctest --test-dir "$build" --output-on-failure -j 2 -L "$labels" -LE long
+[ -z "$labels" ] || ctest --test-dir "$build" --output-on-failure -j $((3 - threads)) -L "$labels" -LE long

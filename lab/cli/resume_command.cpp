@@ -12,6 +12,7 @@
 #include "lab/scene/run_scene.hpp"
 #include "lab/series/plan.hpp"
 #include "lab/series/run_series.hpp"
+#include "lab/study/study.hpp"
 
 namespace proveta {
 
@@ -57,7 +58,8 @@ int go_on_with(const ResumeArguments& a, const std::string& typed, const input::
     }
     const Plan plan = read_plan({file}, {});
     catch_interrupts();
-    return exit_code(plan.series ? run_series(plan, options, omp_get_max_threads()) : run_test(plan.members.front().deck, options));
+    return exit_code(plan.series ? run_series(plan, options, omp_get_max_threads(), study_of(plan))
+                                 : run_test(plan.members.front().deck, options));
 }
 
 int pass_through(const ResumeArguments& a, const std::string& typed, Passage passage) {

@@ -11,6 +11,7 @@
 #include "lab/run.hpp"
 #include "lab/series/plan.hpp"
 #include "lab/series/run_series.hpp"
+#include "lab/study/study.hpp"
 
 namespace proveta {
 
@@ -57,7 +58,8 @@ void add_run(CLI::App& app, const std::string& typed, Command& chosen) {
             const Plan plan = prepare(*a);
             const RunOptions options{a->out.empty() ? default_folder(*a, plan) : a->out, typed, a->quiet};
             catch_interrupts();
-            return exit_code(plan.series ? run_series(plan, options, omp_get_max_threads()) : run_test(plan.members.front().deck, options));
+            return exit_code(plan.series ? run_series(plan, options, omp_get_max_threads(), study_of(plan))
+                                         : run_test(plan.members.front().deck, options));
         };
     });
 }

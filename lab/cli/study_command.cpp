@@ -21,12 +21,11 @@ int carry_out_study(const StudyArguments& a, const char* name, const std::string
     use_threads(a.threads);
     StudyRequest request = a.request;
     request.settings = a.settings;
-    const Study study = plan_study(request);
+    const Plan plan = plan_study(request);
     const std::string stem = std::filesystem::path(a.request.deck).stem().string();
     const RunOptions options{a.out.empty() ? fmt::format("results/{}-{}-study", stem, name) : a.out, typed, a.quiet};
     catch_interrupts();
-    return exit_code(run_series(study.plan, options, omp_get_max_threads(),
-                                [&](const std::vector<MemberResult>& members) { return evaluate_study(study, members); }));
+    return exit_code(run_series(plan, options, omp_get_max_threads(), study_of(plan)));
 }
 
 } // namespace

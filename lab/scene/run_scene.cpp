@@ -92,7 +92,9 @@ RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder
         if (keeper.there()) {
             performance.restore();
         }
-        log(keeper.there() ? "going on from the last checkpoint" : "no checkpoint yet: the scene begins anew");
+        if (options.passage == Passage::go_on) {
+            log(keeper.there() ? "going on from the last checkpoint" : "no checkpoint yet: the scene begins anew");
+        }
     } else {
         out.begin();
     }

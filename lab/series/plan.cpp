@@ -48,11 +48,14 @@ std::vector<Candidate> members_of(const Json& manifest, const std::string& file,
     return out;
 }
 
-std::vector<Candidate> candidates(const std::string& file, const std::vector<std::string>& settings, bool& series) {
+std::vector<Candidate> candidates(const std::string& file, const std::vector<std::string>& settings, Plan& plan) {
     const Json json = input::load_json(file);
+    bool& series = plan.series;
     std::vector<Candidate> raw;
     if (json.contains(series_mark)) {
         series = true;
+        plan.study = input::text_at(json, "study");
+        plan.title = input::text_at(json, "title");
         raw = members_of(json, file, !settings.empty());
     } else if (json.contains("proveta_manifest")) {
         const Json deck = json.contains("deck") ? Json(json["deck"]) : Json::object();
@@ -113,7 +116,7 @@ Plan read_plan(const std::vector<std::string>& files, const std::vector<std::str
     for (const auto& file : files) {
         std::vector<Candidate> found;
         try {
-            found = candidates(file, settings, plan.series);
+            found = candidates(file, settings, plan);
         } catch (const input::InputError& error) {
             keep(error, {});
         }
@@ -139,8 +142,12 @@ Plan read_plan(const std::vector<std::string>& files, const std::vector<std::str
     if (!problems.empty()) {
         throw input::InputError(merged(problems));
     }
-    plan.title = files.size() == 1 && plan.series ? fmt::format("{}: a series of {}", plan.members.front().deck.title, plan.members.size())
-                                                  : fmt::format("A series of {} tests", plan.members.size());
+    if (files.size() > 1) {
+        plan.study.clear();
+        plan.title = fmt::format("A series of {} tests", plan.members.size());
+    } else if (plan.title.empty() && plan.series) {
+        plan.title = fmt::format("{}: a series of {}", plan.members.front().deck.title, plan.members.size());
+    }
     return plan;
 }
 
@@ -149,6 +156,10 @@ Json series_manifest(const Plan& plan, const std::vector<std::string>& hashes, c
     Json j;
     j[series_mark] = 1;
     j["status"] = status;
+    j["title"] = plan.title;
+    if (!plan.study.empty()) {
+        j["study"] = plan.study;
+    }
     j["command"] = command;
     j["repeat_with"] = fmt::format("proveta run {}/manifest.json --out NEW_FOLDER", folder);
     j["version"] = version();

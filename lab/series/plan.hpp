@@ -18,6 +18,7 @@ struct Member {
 struct Plan {
     bool series = false; ///< true for several decks, a deck with lists, or the manifest of a series; it may have a single member then
     std::string title;
+    std::string study;           ///< what a series varies that is a study: "rate", "step" or "size"; empty: it is none
     std::vector<Member> members; ///< in the order of the decks and their lists; names and decks differ
 };
 

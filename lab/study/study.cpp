@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
+#include <utility>
 
 #include "lab/series/expand.hpp"
-#include "lab/series/statistics.hpp"
-#include "lab/study/extrapolation.hpp"
+#include "lab/study/variation.hpp"
 
 namespace proveta {
 
@@ -16,23 +16,7 @@ using input::Json;
 
 namespace {
 
-// How a kind of study varies a deck, and its words.
-struct Variation {
-    const char *section, *key;
-    const char* title;   // of the study
-    const char* axis;    // of plots
-    const char* limit;   // of what is extrapolated
-    double axis_factor;  // from x to the axis' unit
-    const char* heading; // of the table's column
-};
-
-const Variation& variation(StudyKind kind) {
-    static const Variation rate{"loading", "rate", "loading rate", "closing speed of the platens [m/s]", "at rate 0", 1.0, "rate_m/s"};
-    static const Variation step{"numerics", "safety", "time step", "time step over the stable one", "at step 0", 1.0, "step_over_stable"};
-    static const Variation size{"specimen", "spheres", "number of spheres", "spacing of the spheres (V/n)^(1/3) [mm]", "at size 0",
-                                1e3,        "spheres"};
-    return kind == StudyKind::rate ? rate : kind == StudyKind::step ? step : size;
-}
+constexpr std::pair<StudyKind, const char*> names[] = {{StudyKind::rate, "rate"}, {StudyKind::step, "step"}, {StudyKind::size, "size"}};
 
 double length_along_load(const Deck& deck) {
     const Shape shape =
@@ -75,11 +59,17 @@ Json as_json(StudyKind kind, double value) {
     return kind == StudyKind::size ? Json(static_cast<std::int64_t>(std::llround(value))) : Json(value);
 }
 
+// The value that a member of a study has; nothing where it has none.
+std::optional<double> value_of(StudyKind kind, const Deck& deck) {
+    const Json::json_pointer at(fmt::format("/{}/{}", variation(kind).section, variation(kind).key));
+    const Json json = resolved(deck);
+    return json.contains(at) && json[at].is_number() ? std::optional(json[at].get<double>()) : std::nullopt;
+}
+
 } // namespace
 
-Study plan_study(const StudyRequest& request) {
+Plan plan_study(const StudyRequest& request) {
     const Variation& varied = variation(request.kind);
-    const std::string path = fmt::format("/{}/{}", varied.section, varied.key);
     Json base = input::load_json(request.deck);
     apply_settings(base, request.settings);
     input::Problems problems;
@@ -100,10 +90,10 @@ Study plan_study(const StudyRequest& request) {
     if (values.size() < 2) {
         problems.push_back({"--values", "", fmt::format("{} of them", values.size()), "at least two values to compare", ""});
     }
-    Study study;
-    study.kind = request.kind;
-    study.plan.series = true;
-    study.plan.title = fmt::format("{}: a study of the {}", own.title, varied.title);
+    Plan plan;
+    plan.series = true;
+    plan.study = std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == request.kind; })->second;
+    plan.title = fmt::format("{}: a study of the {}", own.title, varied.title);
     std::vector<MemberProblem> found;
     for (const double value : values) {
         for (int s = 0; s < request.seeds; ++s) {
@@ -114,11 +104,8 @@ Study plan_study(const StudyRequest& request) {
             }
             try {
                 Deck deck = read_deck(json, request.deck);
-                study.values.push_back(value);
-                study.x.push_back(request.kind == StudyKind::size ? spacing(deck) : value);
                 const std::string name = fmt::format("{}_{:.6g}", varied.key, value);
-                study.plan.members.push_back(
-                    {request.seeds > 1 ? fmt::format("{}_seed_{}", name, deck.specimen.seed) : name, std::move(deck)});
+                plan.members.push_back({request.seeds > 1 ? fmt::format("{}_seed_{}", name, deck.specimen.seed) : name, std::move(deck)});
             } catch (const input::InputError& error) {
                 for (const auto& problem : error.problems) {
                     found.push_back({problem, {}});
@@ -132,150 +119,25 @@ Study plan_study(const StudyRequest& request) {
     if (!problems.empty()) {
         throw input::InputError(problems);
     }
-    return study;
+    return plan;
 }
 
-namespace {
-
-// A result over the study.
-struct Trend {
-    report::Scalar scalar;       // name, title, unit, formula
-    std::vector<double> x, y;    // of the members that have it
-    std::map<double, Sample> at; // by x, ascending
-    std::optional<Extrapolation> fit;
-};
-
-std::vector<Trend> trends(const Study& study, const std::vector<MemberResult>& members) {
-    std::vector<Trend> out;
-    for (const auto& m : members) {
-        for (const auto& scalar : m.results) {
-            if (std::none_of(out.begin(), out.end(), [&](const Trend& t) { return t.scalar.name == scalar.name; })) {
-                out.push_back({scalar, {}, {}, {}, {}});
-            }
+SeriesStudy study_of(const Plan& plan) {
+    const auto* found = std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.second == plan.study; });
+    if (found == std::end(names)) {
+        return {};
+    }
+    Study study;
+    study.kind = found->first;
+    for (const auto& member : plan.members) {
+        const auto value = value_of(study.kind, member.deck);
+        if (!value) {
+            return {};
         }
+        study.values.push_back(*value);
+        study.x.push_back(study.kind == StudyKind::size ? spacing(member.deck) : *value);
     }
-    for (auto& trend : out) {
-        std::map<double, std::vector<double>> by;
-        for (std::size_t k = 0; k < members.size(); ++k) {
-            const auto value = members[k].complete() ? members[k].value(trend.scalar.name) : std::nullopt;
-            if (value) {
-                trend.x.push_back(study.x[k]);
-                trend.y.push_back(*value);
-                by[study.x[k]].push_back(*value);
-            }
-        }
-        for (const auto& [x, values] : by) {
-            trend.at[x] = sample_of(values);
-        }
-        trend.fit = extrapolate(trend.x, trend.y);
-    }
-    std::erase_if(out, [](const Trend& t) { return t.at.size() < 2; });
-    return out;
-}
-
-// What people look at first.
-bool is_main(const report::Scalar& s) {
-    return s.name.ends_with("strength") || s.name == "young_modulus" || s.name == "poisson_ratio" || s.name == "strain_at_peak" ||
-           s.name == "crack_energy";
-}
-
-report::TextTable table_of(const Study& study, const std::vector<Trend>& found) {
-    report::TextTable t{"Results by " + std::string(variation(study.kind).title) + ", SI units", {{"result", "unit"}}};
-    std::map<double, double, std::greater<>> columns; // value by x, coarse to fine
-    for (std::size_t k = 0; k < study.x.size(); ++k) {
-        columns[study.x[k]] = study.values[k];
-    }
-    for (const auto& [x, value] : columns) {
-        t.rows.front().push_back(fmt::format("{} {:.6g}", variation(study.kind).heading, value));
-        t.rows.front().push_back("+-95%");
-    }
-    t.rows.front().insert(t.rows.front().end(), {"limit", "+-95%", "power"});
-    for (const auto& trend : found) {
-        std::vector<std::string> row{trend.scalar.name, trend.scalar.unit};
-        for (const auto& [x, value] : columns) {
-            const auto at = trend.at.find(x);
-            row.push_back(at == trend.at.end() ? "" : fmt::format("{:.6g}", at->second.mean));
-            row.push_back(at == trend.at.end() || !at->second.spread ? "" : fmt::format("{:.3g}", at->second.spread->half_width));
-        }
-        row.push_back(trend.fit ? fmt::format("{:.6g}", trend.fit->limit) : "");
-        row.push_back(trend.fit && trend.fit->half_width ? fmt::format("{:.3g}", *trend.fit->half_width) : "");
-        row.push_back(trend.fit ? fmt::format("{:.3g}", trend.fit->power) : "");
-        t.rows.push_back(std::move(row));
-    }
-    return t;
-}
-
-report::Plot plot_of(const Study& study, const Trend& trend) {
-    const Variation& varied = variation(study.kind);
-    report::Scalar largest = trend.scalar;
-    largest.value = *std::max_element(trend.y.begin(), trend.y.end());
-    const report::Scalar shown = report::readable(largest);
-    const double factor = *largest.value != 0.0 ? *shown.value / *largest.value : 1.0;
-    report::Plot p{fmt::format("{} by {}; the line is the fit, its left end the limit.", trend.scalar.title, varied.title),
-                   varied.axis,
-                   fmt::format("{} [{}]", trend.scalar.title, shown.unit.empty() ? "-" : shown.unit),
-                   {},
-                   {}};
-    report::Curve points{"tests", {}, {}, "#1f4e79", report::CurveStyle::points};
-    for (std::size_t k = 0; k < trend.x.size(); ++k) {
-        points.x.push_back(varied.axis_factor * trend.x[k]);
-        points.y.push_back(factor * trend.y[k]);
-    }
-    p.curves.push_back(points);
-    report::Curve means{"mean", {}, {}, "#1e7b46", report::CurveStyle::dashed};
-    for (const auto& [x, sample] : trend.at) {
-        means.x.push_back(varied.axis_factor * x);
-        means.y.push_back(factor * sample.mean);
-    }
-    p.curves.push_back(means);
-    if (trend.fit) {
-        report::Curve line{fmt::format("limit + c x^{:.2g}", trend.fit->power), {}, {}, "#c0392b"};
-        const double far = trend.at.rbegin()->first;
-        for (int k = 0; k <= 50; ++k) {
-            const double x = far * k / 50.0;
-            line.x.push_back(varied.axis_factor * x);
-            line.y.push_back(factor * (trend.fit->limit + trend.fit->slope * std::pow(x, trend.fit->power)));
-        }
-        p.marks.emplace_back(0.0, factor * trend.fit->limit);
-        p.curves.push_back(line);
-    }
-    return p;
-}
-
-} // namespace
-
-SeriesExtra evaluate_study(const Study& study, const std::vector<MemberResult>& members) {
-    const Variation& varied = variation(study.kind);
-    const auto found = trends(study, members);
-    SeriesExtra out;
-    out.csv_name = "study.csv";
-    out.tables.push_back(table_of(study, found));
-    for (const auto& trend : found) {
-        if (!is_main(trend.scalar)) {
-            continue;
-        }
-        const auto& [name, title, ignored, unit, formula] = trend.scalar;
-        if (trend.fit) {
-            out.results.push_back(
-                {name + "_limit", fmt::format("{} {}", title, varied.limit), trend.fit->limit, unit,
-                 fmt::format("least squares of limit + c x^{:.2g} over {} tests, x: {}{}", trend.fit->power, trend.x.size(), varied.axis,
-                             trend.fit->half_width ? fmt::format("; +- {:.3g} {} (95 %)", *trend.fit->half_width, unit) : "")});
-            const double finest = trend.at.begin()->second.mean;
-            out.results.push_back({name + "_left", fmt::format("{}: finest over limit, less 1", title),
-                                   trend.fit->limit != 0.0 ? std::optional(finest / trend.fit->limit - 1.0) : std::nullopt, "",
-                                   "mean at the smallest x over the limit"});
-        }
-        const auto second = std::next(trend.at.begin());
-        const double before = second->second.mean;
-        out.results.push_back({name + "_change", fmt::format("{}: change at the last refinement", title),
-                               before != 0.0 ? std::optional(trend.at.begin()->second.mean / before - 1.0) : std::nullopt, "",
-                               "mean at the smallest x over the mean at the next, less 1"});
-        out.plots.push_back(plot_of(study, trend));
-    }
-    if (found.empty()) {
-        out.warnings.emplace_back("Fewer than two values of the study have results: there is no trend.");
-    }
-    return out;
+    return [study](const std::vector<MemberResult>& members) { return evaluate_study(study, members); };
 }
 
 } // namespace proveta

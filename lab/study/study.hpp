@@ -17,10 +17,9 @@ enum class StudyKind {
     size  ///< specimen.spheres
 };
 
-/// A study to be carried out.
+/// What a study's members differ by.
 struct Study {
     StudyKind kind = StudyKind::rate;
-    Plan plan;
     std::vector<double> values; ///< one a member: m/s, share of the stable step, or number of spheres
     std::vector<double> x;      ///< what is extrapolated to zero, one a member: the same, or the spacing of the spheres in m, (V/n)^(1/3)
 };
@@ -34,8 +33,11 @@ struct StudyRequest {
     int seeds = 1;              ///< specimens for each value, whose seeds count on from the deck's
 };
 
-/// The tests of a study. Throws InputError with every problem.
-Study plan_study(const StudyRequest& request);
+/// The tests of a study, as a series that says what it varies. Throws InputError with every problem.
+Plan plan_study(const StudyRequest& request);
+
+/// What is to be made of a series whose plan says that it is a study, as those are that go on from or repeat one; nothing for others.
+SeriesStudy study_of(const Plan& plan);
 
 /// Means and spreads of every result at each value, its extrapolation, plots. Only complete members count.
 SeriesExtra evaluate_study(const Study& study, const std::vector<MemberResult>& members);

@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace adm_vs_direct_case {
 
 using report::CurveStyle;
 
@@ -191,9 +191,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace adm_vs_direct_case
 
 Case adm_vs_direct() {
+    using namespace adm_vs_direct_case;
     return {"adm-vs-direct", "4.5.2, 4.5.3",
             "Contact forces shared out by areas do not depend on how a face is meshed; interpolated ones do.", false, compute};
 }

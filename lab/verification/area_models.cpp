@@ -10,7 +10,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace area_models_case {
 
 // Areas by one way of computing them, handed over as given ones.
 struct Model {
@@ -74,9 +74,10 @@ Material elastic() {
     return m;
 }
 
-} // namespace
+} // namespace area_models_case
 
 Case area_models() {
+    using namespace area_models_case;
     return {
         "area-models", "5.3", "Every area rule and three treatments of the skin: cuts, filling and scatter of the modulus.", true, [] {
             constexpr int seeds = 5;

@@ -7,7 +7,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace beam_impact_case {
 
 constexpr int modes = 50;        // odd ones: twice as many change nothing in four digits
 constexpr double instant = 5e-8; // s, of the modal solution: to which contact times are known
@@ -99,9 +99,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace beam_impact_case
 
 Case beam_impact() {
+    using namespace beam_impact_case;
     return {"beam-impact", "4.5.1", "A steel sphere falls on the middle of a simply supported beam, against the solution by modes.", false,
             compute};
 }

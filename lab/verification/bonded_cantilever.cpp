@@ -8,7 +8,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace bonded_cantilever_case {
 
 constexpr double r = 0.01; // m
 constexpr double young = 1e9;
@@ -59,9 +59,10 @@ Tip load(int n, const Vec3& force, const Vec3& torque) {
     return tip;
 }
 
-} // namespace
+} // namespace bonded_cantilever_case
 
 Case bonded_cantilever() {
+    using namespace bonded_cantilever_case;
     return {"bonded-cantilever", "- (bending and twisting of bonds)",
             "A row of bonded spheres under a tip load and a tip torque against Timoshenko's beam.", false, [] {
                 Outcome out;

@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace brachistochrone_case {
 
 // The cycloid from (0, 0) to (0.2, -0.1): x = r (s - sin s), z = -r (1 - cos s).
 constexpr double r = 0.05172, last = 3.5084, lower_start = 1.5;
@@ -87,9 +87,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace brachistochrone_case
 
 Case brachistochrone() {
+    using namespace brachistochrone_case;
     return {"brachistochrone", "3.6.5", "Spheres slide down a cycloid in the shortest time, and in the same from any height.", false,
             compute};
 }

@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace circle_triangle_case {
 
 using std::numbers::pi;
 
@@ -164,9 +164,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace circle_triangle_case
 
 Case circle_triangle() {
+    using namespace circle_triangle_case;
     return {"circle-triangle", "C", "Area and centroid of what a circle and a triangle in one plane have in common.", false, compute};
 }
 

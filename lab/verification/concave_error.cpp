@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace concave_error_case {
 
 constexpr double relative_indentations[] = {0.001, 0.01, 0.033, 0.1, 0.25, 0.5, 0.75, 0.98};
 const char* colours[] = {"#1f4e79", "#c0392b", "#1e7b46", "#b9770e", "#7d3c98", "#0e8a93", "#7f8c8d", "#d35f9e"};
@@ -102,9 +102,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace concave_error_case
 
 Case concave_error() {
+    using namespace concave_error_case;
     return {"concave-error", "3.5.1", "The known jump of the force in a concave corner is that of the closed form, at any angle and depth.",
             false, compute};
 }

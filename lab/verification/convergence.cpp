@@ -11,7 +11,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace convergence_case {
 
 struct Test {
     double peak = 0.0;    // Pa
@@ -56,9 +56,10 @@ constexpr const char* colours[] = {"#9aa5b1", "#0e8a93", "#1e7b46", "#b9770e", "
 
 report::Plot plot_of(const char* title) { return {title, "axial strain [%]", "axial stress [MPa]", {}, {}}; }
 
-} // namespace
+} // namespace convergence_case
 
 Case mesh_convergence() {
+    using namespace convergence_case;
     return {
         "mesh-convergence", "5.4.4", "The default test on 107 to 71,852 spheres, softening by ratio as the thesis and by fracture energy.",
         true, [] {
@@ -93,6 +94,7 @@ Case mesh_convergence() {
 }
 
 Case step_convergence() {
+    using namespace convergence_case;
     return {"step-convergence", "5.4.4", "The same test at time steps from a tenth of the default to above the stable one.", true, [] {
                 Outcome out;
                 report::Plot plot = plot_of("Time step (fig. 5.24).");
@@ -127,6 +129,7 @@ Case step_convergence() {
 }
 
 Case rate_convergence() {
+    using namespace convergence_case;
     return {
         "rate-convergence", "5.4.4", "The same test at closing speeds from 0.02 to 2 m/s.", true, [] {
             Outcome out;

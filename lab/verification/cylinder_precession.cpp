@@ -7,7 +7,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace cylinder_precession_case {
 
 constexpr double height = 1.5, radius = 0.5, density = 1.0, until = 0.5; // m, m, kg/m3, s
 const double mass = density * std::numbers::pi * radius * radius * height;
@@ -86,9 +86,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace cylinder_precession_case
 
 Case cylinder_precession() {
+    using namespace cylinder_precession_case;
     return {"cylinder-precession", "2.7.3", "Torque-free precession of a cylinder by RK4 on quaternions and by direct integration.", false,
             compute};
 }

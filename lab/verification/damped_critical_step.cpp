@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace damped_critical_step_case {
 
 struct Bonded {
     Spheres spheres;
@@ -116,9 +116,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace damped_critical_step_case
 
 Case damped_critical_step() {
+    using namespace damped_critical_step_case;
     return {"damped-critical-step", "2.6.4", "Measured stability limit of a damped bond against criterion and bound.", false, compute};
 }
 

@@ -8,7 +8,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace dempack_bond_case {
 
 constexpr double k_n = 7.0e7;   // N/m, concrete's for spheres of 4 mm
 constexpr double area = 5.0e-5; // m2
@@ -222,9 +222,10 @@ void shear_after_tension(Outcome& out) {
     out.checks.push_back({"failure in tension: stored energy left", 0.0, w.stored(), 0.0, Compare::absolute, "J"});
 }
 
-} // namespace
+} // namespace dempack_bond_case
 
 Case dempack_bond() {
+    using namespace dempack_bond_case;
     return {
         "dempack-bond", "5.2.3-5.2.5", "One bond along every load path: forces point by point, energies as areas under curves.", false, [] {
             Outcome out;

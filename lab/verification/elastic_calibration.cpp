@@ -6,7 +6,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace elastic_calibration_case {
 
 // A specimen and what its card asks for.
 struct Wish {
@@ -63,9 +63,10 @@ Case calibration(const char* name, const char* about, bool full) {
             }};
 }
 
-} // namespace
+} // namespace elastic_calibration_case
 
 Case elastic_calibration() {
+    using namespace elastic_calibration_case;
     return calibration("elastic-calibration",
                        "Young's modulus and Poisson's ratio of the card come out of an explicit test: specimens of different seeds, sizes, "
                        "gradings and shapes, ratios beyond the bonds' reach by the averaged stress.",
@@ -73,6 +74,7 @@ Case elastic_calibration() {
 }
 
 Case elastic_calibration_small() {
+    using namespace elastic_calibration_case;
     return calibration("elastic-calibration-small", "The same on three small specimens, for every commit.", false);
 }
 

@@ -6,7 +6,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace elastic_laboratory_case {
 
 struct Elasticity {
     double young, poisson;
@@ -99,16 +99,18 @@ Case laboratory(const char* name, const char* about, bool full) {
         }};
 }
 
-} // namespace
+} // namespace elastic_laboratory_case
 
 Case elastic_laboratory() {
-    return laboratory(
+    return elastic_laboratory_case::laboratory(
         "elastic-laboratory",
         "Every test on unbreakable specimens of full size: moduli and stresses by the inner gauges against elasticity with the "
         "specimen's own E and nu.",
         true);
 }
 
-Case elastic_laboratory_small() { return laboratory("elastic-laboratory-small", "The same on small specimens, for every commit.", false); }
+Case elastic_laboratory_small() {
+    return elastic_laboratory_case::laboratory("elastic-laboratory-small", "The same on small specimens, for every commit.", false);
+}
 
 } // namespace proveta::verification

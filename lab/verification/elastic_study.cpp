@@ -11,7 +11,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace elastic_study_case {
 
 constexpr double young = 20e6;
 constexpr double poisson = 0.25;
@@ -108,9 +108,10 @@ void add_plots(const std::vector<Study>& studies, Outcome& out) {
     }
 }
 
-} // namespace
+} // namespace elastic_study_case
 
 Case elastic_study() {
+    using namespace elastic_study_case;
     return {
         "elastic-study", "5.4.2", "E and nu of five plates over the factors of normal and tangential stiffness; the thesis's findings.",
         false, [] {

@@ -8,7 +8,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace facet_edge_vertex_case {
 
 constexpr double height = 1.0; // of the fall, m
 
@@ -102,9 +102,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace facet_edge_vertex_case
 
 Case facet_edge_vertex() {
+    using namespace facet_edge_vertex_case;
     return {"facet-edge-vertex", "3.6.1", "A soft sphere rebounds alike from a facet, an edge and a vertex of fine meshes.", false,
             compute};
 }

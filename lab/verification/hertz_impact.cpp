@@ -6,7 +6,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace hertz_impact_case {
 
 constexpr double young = 1e5; // Pa; table 2.3 says 1e5 kN/m2
 constexpr double poisson = 0.2;
@@ -76,9 +76,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace hertz_impact_case
 
 Case hertz_impact() {
+    using namespace hertz_impact_case;
     return {"hertz-impact", "2.6.3, A", "Impact of two spheres by Hertz's law, four schemes against appendix A.", false, compute};
 }
 

@@ -10,7 +10,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace hydrostatic_criterion_case {
 
 struct Confined {
     std::vector<double> inside; // criterion values of the bonds in the inner 60 %, ascending
@@ -77,9 +77,10 @@ report::Curve distribution(const Confined& c, const char* name, const char* colo
     return curve;
 }
 
-} // namespace
+} // namespace hydrostatic_criterion_case
 
 Case hydrostatic_criterion() {
+    using namespace hydrostatic_criterion_case;
     return {"hydrostatic-criterion", "5.4.5",
             "A cylinder under 30 MPa all round: use of strength by each bond's own direction and by averaged stress.", false, [] {
                 constexpr double p = 30e6;

@@ -7,7 +7,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace lsd_impact_case {
 
 constexpr double stiffness = 520.83; // N/m; table 2.2 says kN/m
 
@@ -48,9 +48,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace lsd_impact_case
 
 Case lsd_impact() {
+    using namespace lsd_impact_case;
     return {"lsd-impact", "2.6.3", "Impact of two spheres with a linear spring, four schemes against the harmonic oscillator.", false,
             compute};
 }

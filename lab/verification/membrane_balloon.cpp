@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace membrane_balloon_case {
 
 constexpr double radius = 0.1;     // m
 constexpr double thickness = 1e-3; // m
@@ -222,9 +222,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace membrane_balloon_case
 
 Case membrane_balloon() {
+    using namespace membrane_balloon_case;
     return {"membrane-balloon", "4.2", "A balloon and a tube of membranes under pressure, at small and at finite strain.", false, compute};
 }
 

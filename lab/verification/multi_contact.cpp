@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace multi_contact_case {
 
 // A plate at z = 0 around a hole: quadrilaterals between the hole's corners and those of a square, each along one side.
 SurfaceMesh ring(const std::vector<Vec3>& hole) {
@@ -112,9 +112,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace multi_contact_case
 
 Case multi_contact() {
+    using namespace multi_contact_case;
     return {"multi-contact", "3.6.3", "Spheres come to rest in holes, on three edges, on four, and on four vertices.", false, compute};
 }
 

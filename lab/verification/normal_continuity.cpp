@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace normal_continuity_case {
 
 constexpr double indentation = 0.01; // m
 
@@ -57,9 +57,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace normal_continuity_case
 
 Case normal_continuity() {
+    using namespace normal_continuity_case;
     return {"normal-continuity", "3.6.2", "The normal force does not jump where the contact goes from a facet to an edge and on.", false,
             compute};
 }

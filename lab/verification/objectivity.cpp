@@ -11,7 +11,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace objectivity_case {
 
 struct View {
     Mat3 turn = Mat3::Identity();
@@ -68,9 +68,10 @@ End fling(const Packing& packing, const View& view, double speed, int steps) {
     return out;
 }
 
-} // namespace
+} // namespace objectivity_case
 
 Case objectivity() {
+    using namespace objectivity_case;
     return {
         "objectivity", "-", "The same cluster translated, turned by a random rotation, renumbered, and on 1 and 3 threads.", false, [] {
             Outcome out;

@@ -6,7 +6,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace parabolic_flight_case {
 
 constexpr double gravity = -10.0; // m/s2
 constexpr double speed = 1.0;     // m/s
@@ -88,9 +88,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace parabolic_flight_case
 
 Case parabolic_flight() {
+    using namespace parabolic_flight_case;
     return {"parabolic-flight", "2.6.3", "A sphere thrown upwards, ten steps, four schemes against the parabola.", false, compute};
 }
 

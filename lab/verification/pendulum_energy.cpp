@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace pendulum_energy_case {
 
 // Neither the prism's size nor the walls' places are printed. 2 x 2 x 10 m has cubes for elements and swings back and forth in some 19 s,
 // of which figure 4.19 shows 23.4 s. Between its tip and the floor there is room for spheres: squeezed to a quarter of their radius they
@@ -151,14 +151,16 @@ Outcome swing(double until, double dt, double allowed) {
     return out;
 }
 
-} // namespace
+} // namespace pendulum_energy_case
 
 Case pendulum_energy() {
+    using namespace pendulum_energy_case;
     return {"pendulum-energy", "4.5.3", "A soft prism hung at one node swings among four spheres in a box: no energy is lost or made.",
             false, [] { return swing(10.0, 1e-3, 0.005); }};
 }
 
 Case pendulum_energy_long() {
+    using namespace pendulum_energy_case;
     return {"pendulum-energy-long", "4.5.3", "The same for as long and with the step of the thesis.", true,
             [] { return swing(23.4, 5e-5, 0.005); }};
 }

@@ -11,7 +11,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace regular_lattice_case {
 
 constexpr double radius = 0.002;
 
@@ -45,9 +45,10 @@ std::pair<double, double> stress_under(const Mesh& mesh, const Bonds& bonds, dou
     return {xx / volume, zz / volume};
 }
 
-} // namespace
+} // namespace regular_lattice_case
 
 Case regular_lattice() {
+    using namespace regular_lattice_case;
     return {"regular-lattice", "5.1.5", "Hexagonal discs with (5.10) under uniform strain give E and nu back.", false, [] {
                 Outcome out;
                 const Mesh mesh = make_mesh("hexagonal", hexagonal_lattice(12, 13, radius), 0.0);

@@ -11,7 +11,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace released_law_case {
 
 struct Pair {
     BondLaw law;
@@ -102,9 +102,10 @@ void shear(Outcome& out, report::Curve& curve, const char* name, bool pressed) {
     }
 }
 
-} // namespace
+} // namespace released_law_case
 
 Case released_law() {
+    using namespace released_law_case;
     return {"released-law", "5.2 (as released)", "The bond law of the released DEMpack code on two spheres, against that code's answers.",
             false, [] {
                 Outcome out;

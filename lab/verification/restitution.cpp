@@ -7,7 +7,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace restitution_case {
 
 // Four thousand steps a contact: velocities that lag half a step shift the dashpot's force by xi pi / 8000 of its own, and e with it.
 constexpr double steps = 4000.0;
@@ -91,8 +91,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace restitution_case
 
-Case restitution() { return {"restitution", "2.5.1, 2.5.2", "Restitution asked for and given back by LS+D and HM+D.", false, compute}; }
+Case restitution() {
+    return {"restitution", "2.5.1, 2.5.2", "Restitution asked for and given back by LS+D and HM+D.", false, restitution_case::compute};
+}
 
 } // namespace proveta::verification

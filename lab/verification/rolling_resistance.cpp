@@ -7,7 +7,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace rolling_resistance_case {
 
 constexpr double radius = 0.05, density = 2500.0, young = 1e7, poisson = 0.2; // m, kg/m3, Pa
 constexpr double gravity = 9.81, speed = 0.2, eta = 0.05;                     // m/s2, m/s
@@ -94,9 +94,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace rolling_resistance_case
 
 Case rolling_resistance() {
+    using namespace rolling_resistance_case;
     return {"rolling-resistance", "2.5.4", "A sphere rolling on a plane is stopped by rolling resistance and stays at rest.", false,
             compute};
 }

@@ -7,7 +7,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace sliding_to_rolling_case {
 
 constexpr double speed = 5.0, gravity = 9.81, until = 1.0; // m/s, m/s2, s
 
@@ -115,9 +115,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace sliding_to_rolling_case
 
 Case sliding_to_rolling() {
+    using namespace sliding_to_rolling_case;
     return {"sliding-to-rolling", "3.6.4", "A sliding sphere comes to roll as the soft contact's lever arm says, whatever the mesh.", false,
             compute};
 }

@@ -8,7 +8,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace sphere_between_plates_case {
 
 constexpr double radius = 0.004;   // m
 constexpr double density = 2000.0; // kg/m3
@@ -132,9 +132,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace sphere_between_plates_case
 
 Case sphere_between_plates() {
+    using namespace sphere_between_plates_case;
     return {"sphere-between-plates", "2.6.4", "A sphere on linear springs between two plates: where each scheme becomes unstable.", false,
             compute};
 }

@@ -9,7 +9,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace tangential_continuity_case {
 
 constexpr double lift = 0.1, speed = 0.5, dt = 5e-5; // of the centre over the surface, m; m/s; s
 constexpr int search_every = 100;
@@ -155,9 +155,10 @@ Outcome compute() {
     return out;
 }
 
-} // namespace
+} // namespace tangential_continuity_case
 
 Case tangential_continuity() {
+    using namespace tangential_continuity_case;
     return {"tangential-continuity", "3.5.2", "The tangential force goes on where the contact changes to another element, edge or facet.",
             false, compute};
 }

@@ -6,7 +6,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace two_body_energy_case {
 
 struct Motion {
     const char* name;
@@ -60,9 +60,10 @@ Balance follow(const Motion& motion) {
     return out;
 }
 
-} // namespace
+} // namespace two_body_energy_case
 
 Case two_body_energy() {
+    using namespace two_body_energy_case;
     return {"two-body-energy", "5.2 (ledger)",
             "Two bonded spheres set in motion: the ledger through elasticity, damage, plasticity, friction, dashpots and moments.", false,
             [] {

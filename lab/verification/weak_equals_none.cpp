@@ -8,7 +8,7 @@
 
 namespace proveta::verification {
 
-namespace {
+namespace weak_equals_none_case {
 
 // Two spheres that touch at rest, driven apart for a little and then into each other at a slant, with spin: sticking, sliding, parting.
 std::vector<Vec3> path(bool bonded, double mu) {
@@ -54,9 +54,10 @@ std::vector<Vec3> path(bool bonded, double mu) {
     return out;
 }
 
-} // namespace
+} // namespace weak_equals_none_case
 
 Case weak_equals_none() {
+    using namespace weak_equals_none_case;
     return {"weak-equals-none", "5.2.5", "A bond of no strength, once pulled, moves like a pair that was never bonded.", false, [] {
                 Outcome out;
                 for (const double mu : {0.0, 0.25, 1.0}) {

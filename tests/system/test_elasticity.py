@@ -71,19 +71,29 @@ class Elasticity(Case):
 class Studies(Case):
     def test_a_study_runs_extrapolates_and_plots(self):
         deck = self.deck(loading={"rate": "0.5 m/s"}, output={"samples": 100, "fields": 0})
-        done = self.run_program("study", "size", deck, "--values", "300,800", "--seeds", 2, "--out", "s", "--quiet")
+        done = self.run_program("study", "size", deck, "--values", "200,500", "--seeds", 2, "--out", "s", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.folder / "s" / "study.csv") as f:
             text = f.read()
-        self.assertIn("spheres 300", text)
+        self.assertIn("spheres 200", text)
         summary = json.loads((self.folder / "s" / "summary.json").read_text())
         values = [m["results"]["young_modulus"]["value"] for m in summary["members"]]
         self.assertEqual(len(values), 4)
         means = [sum(values[:2]) / 2, sum(values[2:]) / 2]
-        x = [(1.0 / n) ** (1.0 / 3.0) for n in (300, 800)]
+        x = [(1.0 / n) ** (1.0 / 3.0) for n in (200, 500)]
         limit = means[1] - x[1] * (means[0] - means[1]) / (x[0] - x[1])
         self.assertAlmostEqual(summary["results"]["young_modulus_limit"]["value"] / limit, 1.0, delta=1e-9)
         self.assertIn("number of spheres", (self.folder / "s" / "report.html").read_text())
+        # Stopped and gone on with it is still a study; from its manifest, too.
+        process = self.start("study", "size", deck, "--values", "200,500", "--seeds", 2, "--out", "part", "--quiet", until="part/manifest.json")
+        process.kill()
+        process.communicate()
+        for command in (["resume", "part"], ["run", "s/manifest.json", "--out", "again"]):
+            done = self.run_program(*command, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for out in ("part", "again"):
+            for name in ("study.csv", "summary.json"):
+                self.assertEqual((self.folder / out / name).read_bytes(), (self.folder / "s" / name).read_bytes(), (out, name))
 
     def test_bad_studies_are_refused_before_anything_is_written(self):
         for arguments, text in [(("rate", self.deck(), "--values", "0.1,0.1"), "twice"), (("rate", self.deck(), "--values", "0.1"), "at least two"),

@@ -60,16 +60,16 @@ class Killed(Reliability):
                 path = self.deck({**deck, "output": {"samples": 100, "fields": 3, "pictures": 0, "checkpoint_every": 0.05}}, name + ".json")
                 whole, part = name + "-whole", name + "-part"
                 begun = time.monotonic()
-                done = self.run_program("run", path, "--out", whole, "--quiet")
+                done = self.run_program("run", path, "--out", whole, "--quiet", "--threads", 2)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 seconds = time.monotonic() - begun
                 for share in (0.6, 0.4, 0.2, 0.05, 0.0):  # killed too late on a machine that has become faster: again, earlier
                     shutil.rmtree(self.folder / part, ignore_errors=True)
-                    process = self.start("run", path, "--out", part, "--quiet", until=part + "/checkpoint.h5")
+                    process = self.start("run", path, "--out", part, "--quiet", "--threads", 1, until=part + "/checkpoint.h5")
                     if self.kill(process, share * seconds) and self.status(part) == "running":
                         break
                 self.assertEqual(self.status(part), "running")
-                resumed = self.run_program("resume", part, "--quiet")
+                resumed = self.run_program("resume", part, "--quiet", "--threads", 2)
                 self.assertEqual(resumed.returncode, 0, resumed.stderr)
                 self.assertSame(part, whole)
                 self.assertEqual(self.status(part), "complete")

@@ -176,6 +176,12 @@ class Scenes(Case):
         done = self.run_scene(scene(surfaces=[BOX, ram], stop={"time": 0.01}), code=3)
         self.assertIn('surface "ram" goes', done.stdout + done.stderr)
         self.assertEqual(self.result()["status"], "failed")
+        # It would fail again, and its checkpoint knows nothing of the failure.
+        for command in ("resume", "report"):
+            refused = self.run_program(command, "out", "--quiet")
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn("a calculation that failed", refused.stderr)
+        self.assertEqual(self.result()["status"], "failed")
 
     def test_examples_have_no_problems(self):
         for name in ("mixer", "silo", "ballast"):

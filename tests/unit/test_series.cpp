@@ -30,7 +30,7 @@ std::vector<std::string> names_of(const Plan& plan) {
     return out;
 }
 
-input::Problems problems_of(const std::vector<std::string>& files, const std::vector<std::string>& settings = {}) {
+input::Problems problems_of_plan(const std::vector<std::string>& files, const std::vector<std::string>& settings = {}) {
     try {
         read_plan(files, settings);
     } catch (const input::InputError& e) {
@@ -78,7 +78,7 @@ TEST_CASE("a deck with lists stands for their product, the pressures in the oute
 TEST_CASE("lists that make no series are refused at the place of the entry") {
     const TemporaryFolder decks;
     const auto path_of = [&](const std::string& text) {
-        const auto problems = problems_of({decks.file("d.json", text)});
+        const auto problems = problems_of_plan({decks.file("d.json", text)});
         REQUIRE(problems.size() == 1);
         return problems.front().path;
     };
@@ -106,7 +106,7 @@ TEST_CASE("members are named after their lists, and after their decks among seve
     CHECK(one.series);
     CHECK(one.members.size() == 1);
     // The same test twice says nothing new.
-    const auto twice = problems_of({ucs, ucs});
+    const auto twice = problems_of_plan({ucs, ucs});
     REQUIRE(twice.size() == 1);
     CHECK(twice.front().found == "the same test as \"ucs\"");
 }
@@ -122,7 +122,7 @@ TEST_CASE("the manifest of a series is the series") {
     CHECK(resolved(again.members[1].deck) == resolved(plan.members[1].deck));
     Json evil = manifest;
     evil["members"][0]["name"] = "../elsewhere";
-    CHECK(problems_of({decks.file("evil.json", evil.dump())}).at(0).path == "/members/0/name");
+    CHECK(problems_of_plan({decks.file("evil.json", evil.dump())}).at(0).path == "/members/0/name");
 }
 
 TEST_CASE("threads and memory say how many members run at once") {
