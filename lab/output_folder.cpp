@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <vector>
@@ -13,6 +14,19 @@
 namespace proveta {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool is_half(const fs::path& file) { return file.extension() == ".partial" || file.extension() == ".next"; }
+
+// Nothing, or what a process left that was killed while it wrote its very first file.
+bool holds_halves_only(const fs::path& folder) {
+    std::error_code error;
+    const fs::directory_iterator entries(folder, error);
+    return std::all_of(begin(entries), end(entries), [](const auto& entry) { return is_half(entry.path()); });
+}
+
+} // namespace
 
 OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     const auto refuse = [&](const std::string& found, const std::string& expected) {
@@ -37,7 +51,7 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
         refuse("which cannot be written", "a folder that can be written");
     }
     const bool earlier = fs::exists(path / "manifest.json", error) || fs::exists(path / "ledger.jsonl", error);
-    if (!fs::is_empty(path, error) && !earlier) {
+    if (!holds_halves_only(path) && !earlier) {
         refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
     }
     lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -76,7 +90,7 @@ void remove_halves(const fs::path& folder) {
     for (const auto& part : {folder, folder / "fields", folder / "pictures"}) {
         std::error_code error;
         for (const auto& entry : fs::directory_iterator(part, error)) {
-            if (entry.path().extension() == ".partial" || entry.path().extension() == ".next") {
+            if (is_half(entry.path())) {
                 halves.push_back(entry.path());
             }
         }

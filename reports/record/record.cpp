@@ -1,11 +1,10 @@
 #include "reports/record/record.hpp"
 
-#include <iterator>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace proveta::report {
@@ -43,7 +42,11 @@ Scalar readable(Scalar s) {
 
 KeyFigure key_figure(const Scalar& scalar) {
     const Scalar r = readable(scalar);
-    return {r.title, r.value ? fmt::format("{:.3g}", *r.value) : "not determined", r.value ? r.unit : "", ""};
+    if (!r.value) {
+        return {r.title, "not determined", "", ""};
+    }
+    const bool count = r.unit.empty() && std::fabs(*r.value) < 1e9 && *r.value == std::floor(*r.value); // all its digits, then
+    return {r.title, fmt::format("{:.{}g}", *r.value, count ? 9 : 3), r.unit, ""};
 }
 
 std::vector<KeyFigure> key_figures(const std::vector<Scalar>& results, const std::vector<std::string>& names, std::size_t most) {

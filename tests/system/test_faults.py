@@ -83,6 +83,13 @@ class Folders(Reliability):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(self.content("out", "manifest.json"))["seed"], 5)
 
+    def test_the_half_of_a_first_file_is_no_other_file(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out" / "manifest.json.partial").write_text("{")  # killed before it had its name
+        done = self.run_program("run", self.small(), "--out", "out", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.no_halves("out")
+
     def test_two_runs_into_one_folder(self):
         process = self.start("run", self.small(), "--out", "out", "--quiet", until="out/manifest.json")
         second = self.run_program("run", self.small(), "--out", "out", "--quiet")

@@ -84,6 +84,9 @@ TEST_CASE("a page has one main part, headings in order, captions and scopes") {
     REQUIRE(r.key_figures.size() == 1);
     CHECK(r.key_figures[0].value == "30");
     CHECK(r.key_figures[0].unit == "MPa");
+    const auto counts = report::key_figures({{"n", "Particles", 18494.0, "", ""}, {"m", "Mass", 18494.3, "kg", ""}}, {"n", "m"});
+    CHECK(counts[0].value == "18494");
+    CHECK(counts[1].value == "1.85e+04");
     CHECK(report::key_figure(r.results[1]).value == "not determined");
     const auto html = report::to_html(r);
     CHECK(html.find("<html lang=\"en\">") != std::string::npos);
