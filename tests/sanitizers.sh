@@ -7,8 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case "${1:-}" in
-asan) preset=asan-ubsan tests="test_unit fuzz_replay" labels=unit threads=1 ;;
-tsan) preset=tsan tests="" labels="" threads=2 ;;
+asan) preset=asan-ubsan tests="test_unit fuzz_replay" labels=unit threads=1 jobs=2 ;;
+tsan) preset=tsan tests="" labels="" threads=2 jobs=1 ;;
 *) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac
 if [ "${2:-}" = whole ]; then
@@ -52,4 +52,4 @@ for test in ucs brazilian direct-tension triaxial hydrostatic oedometric granula
 done
 echo "scene"
 "$build"/proveta scene examples/silo.json --set stop.time=0.02 --threads 2 --quiet --out "$out"/silo >/dev/null
-[ -z "$labels" ] || ctest --test-dir "$build" --output-on-failure -j $((3 - threads)) -L "$labels" -LE long
+[ -z "$labels" ] || ctest --test-dir "$build" --output-on-failure -j $jobs -L "$labels" -LE long

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "lab/series/expand.hpp"
 #include "lab/study/variation.hpp"
@@ -16,7 +15,7 @@ using input::Json;
 
 namespace {
 
-constexpr std::pair<StudyKind, const char*> names[] = {{StudyKind::rate, "rate"}, {StudyKind::step, "step"}, {StudyKind::size, "size"}};
+constexpr StudyKind kinds[] = {StudyKind::rate, StudyKind::step, StudyKind::size};
 
 double length_along_load(const Deck& deck) {
     const Shape shape =
@@ -92,7 +91,7 @@ Plan plan_study(const StudyRequest& request) {
     }
     Plan plan;
     plan.series = true;
-    plan.study = std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.first == request.kind; })->second;
+    plan.study = varied.name;
     plan.title = fmt::format("{}: a study of the {}", own.title, varied.title);
     std::vector<MemberProblem> found;
     for (const double value : values) {
@@ -123,12 +122,12 @@ Plan plan_study(const StudyRequest& request) {
 }
 
 SeriesStudy study_of(const Plan& plan) {
-    const auto* found = std::find_if(std::begin(names), std::end(names), [&](const auto& n) { return n.second == plan.study; });
-    if (found == std::end(names)) {
+    const auto* kind = std::find_if(std::begin(kinds), std::end(kinds), [&](StudyKind k) { return plan.study == variation(k).name; });
+    if (kind == std::end(kinds)) {
         return {};
     }
     Study study;
-    study.kind = found->first;
+    study.kind = *kind;
     for (const auto& member : plan.members) {
         const auto value = value_of(study.kind, member.deck);
         if (!value) {

@@ -11,16 +11,13 @@ using namespace proveta::testing;
 
 namespace {
 
-constexpr const char* busy_scene = R"json({
+constexpr const char* busy_scene = R"scene({
   "scene": "A tray that is shaken, filled, pressed and emptied",
   "materials": [{"name": "grain", "material": {"card": "custom", "density": 2500, "young_modulus": "2 MPa", "elasticity": "as-given",
                  "contact_law": "hertz", "contact_restitution": 0.5, "mu_d": 0.4, "rolling_friction": 0.02}}],
   "surfaces": [
     {"name": "tray", "shape": "box", "size": ["100 mm", "100 mm", "300 mm"], "position": [0, 0, "150 mm"],
-     "motion": {"kind": "expression", "velocity_x": "0.1*sin(2*pi*20*t)",
-                     "spin_z" : "0.5*t"
-}
-},
+     "motion": {"kind": "expression", "velocity_x": "0.1*sin(2*pi*20*t)", "spin_z": "0.5*t"}},
     {"name": "lid", "shape": "plane", "size": ["80 mm", "80 mm"], "position": [0, 0, "120 mm"],
      "motion": {"kind": "servo", "force": "2 N", "most_speed": "1 m/s", "begin": "0.1 s"}},
     {"name": "arm", "shape": "helix", "inner_radius": "5 mm", "radius": "20 mm", "pitch": "50 mm", "height": "100 mm", "sides": 12,
@@ -35,10 +32,8 @@ constexpr const char* busy_scene = R"json({
      "from": ["-45 mm", "-45 mm", "180 mm"], "to": ["45 mm", "45 mm", "260 mm"], "velocity": [0, 0, -1]}],
   "outlets": [{"name": "drain", "from": [-0.2, -0.2, 0], "to": [0, 0.2, "14 mm"]}],
   "stop": {"time": "1 s"},
-  "numerics": {
-    "time_step" : "60 us", "above_bound" : "keep"
-}
-})json";
+  "numerics": {"time_step": "60 us", "above_bound": "keep"}
+})scene";
 
 struct AtTheEnd {
     std::uint64_t state;
