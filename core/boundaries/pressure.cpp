@@ -1,5 +1,11 @@
 #include "core/boundaries/pressure.hpp"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
 namespace proveta {
 
 namespace {
@@ -19,6 +25,63 @@ Vec3 area_of(const Spheres& spheres, const Pressure& p, std::uint32_t k) {
     return 0.5 * p.scale * sum;
 }
 
+// Of each facet's force, what each of its spheres takes.
+using Shares = std::array<double, 3>;
+
+// In proportion to sections, then moved for a moment that is that of the pressure: forces that act at d beside the middle of a facet of
+// area A and normal n have the moment -p A d x n. A shift e = h n x m with the same m for all, h the facet's least height, adds -p A h (m -
+// (n.m) n): three equations for m. Shares that act there are those that were plus grad(N_i).e, which is at most |m|.
+std::vector<Shares> balanced_shares(const Spheres& spheres, const Pressure& p, const std::vector<Facet>& facets) {
+    std::vector<Shares> shares(facets.size());
+    Vec3 moment = Vec3::Zero();
+    Mat3 turned = Mat3::Zero();
+    const auto sides = [&](const Facet& f) {
+        const std::array at = {corner(spheres, p, f[0]), corner(spheres, p, f[1]), corner(spheres, p, f[2])};
+        return std::array<Vec3, 3>{at[2] - at[1], at[0] - at[2], at[1] - at[0]}; // across from each corner
+    };
+    const auto least_height = [](const std::array<Vec3, 3>& side, double twice_area) {
+        return twice_area / std::max({side[0].norm(), side[1].norm(), side[2].norm()});
+    };
+    for (std::size_t k = 0; k < facets.size(); ++k) {
+        const Facet& f = facets[k];
+        Shares& share = shares[k];
+        for (std::size_t c = 0; c < 3; ++c) {
+            share[c] = spheres.section(static_cast<std::size_t>(p.sphere[f[c]]));
+        }
+        const double sum = share[0] + share[1] + share[2];
+        const auto side = sides(f);
+        const Vec3 area = 0.5 * side[0].cross(side[1]);
+        Vec3 beside = Vec3::Zero();
+        for (std::size_t c = 0; c < 3; ++c) {
+            share[c] /= sum;
+            beside += (share[c] - 1.0 / 3.0) * corner(spheres, p, f[c]);
+        }
+        if (area.norm() > 0.0) {
+            const Vec3 normal = area.normalized();
+            moment += beside.cross(area);
+            turned += area.norm() * least_height(side, 2.0 * area.norm()) * (Mat3::Identity() - normal * normal.transpose());
+        }
+    }
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(turned);
+    Vec3 m = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) { // but about the normal of a net that is nearly flat, where the facets have no lever
+        if (axes.eigenvalues()[k] > 1e-3 * axes.eigenvalues()[2]) {
+            m -= axes.eigenvectors().col(k) * (axes.eigenvectors().col(k).dot(moment) / axes.eigenvalues()[k]);
+        }
+    }
+    for (std::size_t k = 0; k < facets.size(); ++k) {
+        const auto side = sides(facets[k]);
+        const Vec3 twice = side[0].cross(side[1]);
+        if (twice.norm() > 0.0) {
+            const Vec3 shift = least_height(side, twice.norm()) * twice.normalized().cross(m);
+            for (std::size_t c = 0; c < 3; ++c) {
+                shares[k][c] += twice.normalized().cross(side[c]).dot(shift) / twice.norm();
+            }
+        }
+    }
+    return shares;
+}
+
 } // namespace
 
 Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const VectorField& normal,
@@ -26,18 +89,18 @@ Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere,
     Pressure p;
     p.sphere = std::move(sphere);
     p.raise = std::move(raise);
-    std::vector<std::vector<std::array<std::uint32_t, 2>>> of(p.sphere.size());
-    for (const auto& f : facets) {
+    const std::vector<Shares> shares = balanced_shares(spheres, p, facets);
+    std::vector<std::vector<std::pair<std::size_t, std::size_t>>> of(p.sphere.size()); // facets, and which corner of them
+    for (std::size_t k = 0; k < facets.size(); ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
-            of[f[c]].push_back({f[(c + 1) % 3], f[(c + 2) % 3]});
+            of[facets[k][c]].emplace_back(k, c);
         }
     }
-    const auto section = [&](std::uint32_t k) { return spheres.section(static_cast<std::size_t>(p.sphere[k])); };
     p.offset.push_back(0);
-    for (std::uint32_t k = 0; k < of.size(); ++k) {
-        for (const auto& other : of[k]) {
-            p.others.push_back(other);
-            p.share.push_back(section(k) / (section(k) + section(other[0]) + section(other[1])));
+    for (const auto& corners : of) {
+        for (const auto& [k, c] : corners) {
+            p.others.push_back({facets[k][(c + 1) % 3], facets[k][(c + 2) % 3]});
+            p.share.push_back(shares[k][c]);
         }
         p.offset.push_back(static_cast<std::uint32_t>(p.others.size()));
     }

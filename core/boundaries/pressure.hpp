@@ -1,7 +1,8 @@
 // A pressure on the surface of a bonded specimen: forces on its surface spheres (thesis 5.5.3).
 //
 // The surface is a net of triangles between the centres of the surface spheres, so that the pressure follows the specimen however it
-// deforms. As the net of a closed surface, or one closed by the platens, has no net area, the pressure pushes it nowhere.
+// deforms. As the net of a closed surface, or one closed by the platens, has no net area, the pressure pushes it nowhere; and as the
+// shares of its facets are balanced, it turns it nowhere either, which lubricated platens would not hinder.
 #pragma once
 
 #include <array>
@@ -16,7 +17,9 @@ namespace proveta {
 using Facet = std::array<std::uint32_t, 3>;
 
 /// A pressure on a net of facets. Each facet's force -p A n, with its present area A and outward normal n, is shared out among its spheres
-/// in proportion to their sections: a small sphere between large ones lies in their shelter.
+/// nearly in proportion to their sections: a small sphere between large ones lies in their shelter. Such forces act beside the middles of
+/// the facets, where a pressure's resultants are, and all together would turn the specimen: the shares are moved by the little (some
+/// thousandths) that takes this moment away. It stays away however the specimen turns.
 struct Pressure {
     double value = 0.0;               ///< Pa, positive presses inwards
     std::vector<std::int32_t> sphere; ///< ascending

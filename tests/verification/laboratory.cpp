@@ -59,6 +59,15 @@ Vec3 pushed(const Spheres& s, Pressure& p) {
     return sum;
 }
 
+// Moment of the forces about the axis, N m.
+double turning(const Spheres& spheres, const Pressure& p) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < p.sphere.size(); ++k) {
+        sum += spheres.position.at(static_cast<std::size_t>(p.sphere[k])).cross(p.force.at(k)).z();
+    }
+    return sum;
+}
+
 } // namespace
 
 TEST_CASE("surface net: goes around once, shows the true surface along its normals, and pushes the specimen nowhere, whatever its form") {
@@ -91,6 +100,17 @@ TEST_CASE("surface net: goes around once, shows the true surface along its norma
         CHECK(shown == Approx(net.surface).epsilon(1e-12));
         const double scale = p.value * net.surface;
         CHECK(std::hypot(rest.x(), rest.y()) < 1e-12 * scale);
+        // Nor does it turn the specimen about its axis, which lubricated platens would not hinder, however far it has turned.
+        CHECK(std::fabs(turning(s, p)) < 1e-12 * scale * shape_of_it.lateral_size());
+        const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3::UnitZ()).toRotationMatrix();
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            s.position.set(k, turn * s.position.at(k));
+        }
+        pushed(s, p);
+        CHECK(std::fabs(turning(s, p)) < 1e-12 * scale * shape_of_it.lateral_size());
+        for (std::size_t k = 0; k < s.size(); ++k) {
+            s.position.set(k, turn.transpose() * s.position.at(k));
+        }
         // Moved, swollen, bent: still no net push across the axis, for the rims stay level.
         for (std::size_t k = 0; k < s.size(); ++k) {
             const Vec3 at = s.position.at(k);
