@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Builds what a sanitizer looks at (clang) and runs it; fails at the first report.
 #   tests/sanitizers.sh asan|tsan [whole]
-# asan: address and undefined behaviour; unit tests, what the fuzzers have kept, a short run of every test, a series and a scene.
+# asan: address and undefined behaviour; unit tests, what the fuzzers have kept, a short run of every test, a series and a
+#   scene, some closed forms.
 # tsan: data races between threads; the same runs.
-# whole: the verification tests as well, an hour and more.
+# whole: unit and verification tests as well, an hour and more.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case "${1:-}" in
 asan) preset=asan-ubsan tests="test_unit fuzz_replay" labels=unit threads=1 jobs=2 ;;
 tsan) preset=tsan tests="" labels="" threads=2 jobs=1 ;;
-*) sed -n '2,6s/^# \{0,1\}//p' "$0"; exit 2 ;;
+*) sed -n '2,7s/^# \{0,1\}//p' "$0"; exit 2 ;;
 esac
 if [ "${2:-}" = whole ]; then
     tests="test_unit fuzz_replay test_verification"
@@ -36,6 +37,7 @@ write_deck() {
     triaxial) loading="\"confining_pressure\": [\"1 MPa\", \"2 MPa\"], $loading" ;; # a series of two
     hydrostatic) loading='"pressure": "5 MPa"' ;;
     granular-triaxial)
+        loading="\"ramp\": \"1 ms\", \"membrane\": {\"element\": \"30 mm\"}, $loading"
         specimen='"diameter": "120 mm", "height": "240 mm", "particles": {"form": "stone", "size": "40 mm", "spheres": 5, "forms": 2}'
         ;;
     esac
@@ -52,4 +54,7 @@ for test in ucs brazilian direct-tension triaxial hydrostatic oedometric granula
 done
 echo "scene"
 "$build"/proveta scene examples/silo.json --set stop.time=0.02 --threads 2 --quiet --out "$out"/silo >/dev/null
+echo "closed forms"
+"$build"/proveta verify dempack-bond two-body-energy regular-lattice facet-edge-vertex multi-contact rolling-resistance \
+    weak-equals-none bonded-cantilever >/dev/null
 [ -z "$labels" ] || ctest --test-dir "$build" --output-on-failure -j $jobs -L "$labels" -LE long

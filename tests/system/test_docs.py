@@ -34,7 +34,10 @@ class Docs(Case):
         if verb == "run" and granular:
             return ["check", *[w for w in words[1:] if w != "--quiet"]]
         if verb in ("run", "study"):
-            values = [re.sub(r"\b(\d+)000\b", r"\g<1>00", w) if words[k - 1] == "--values" else w for k, w in enumerate(words)]
+            values = list(words)
+            if "size" in words:  # the spheres of a study of sizes
+                at = words.index("--values") + 1
+                values[at] = ",".join(str(int(v) // 10) for v in words[at].split(","))
             more = SMALL if verb == "run" else [w for w in SMALL if w != "--quiet"] + ["--quiet"]
             if verb == "study" and "rate" in words:
                 more = [w for k, w in enumerate(more) if "loading.rate" not in w and not (w == "--set" and k + 1 < len(more) and "loading.rate" in more[k + 1])]

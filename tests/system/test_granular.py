@@ -94,7 +94,7 @@ class Granular(Case):
             self.assertEqual((self.folder / "out" / name).read_bytes(), (self.folder / "again" / name).read_bytes(), name)
 
     def test_more_pressure_makes_a_series_stronger(self):
-        spheres = {"form": "sphere", "size": "16 mm", "deviation": 0.1}
+        spheres = {"form": "sphere", "size": "24 mm", "deviation": 0.1}
         deck = merged(BED, specimen__particles=spheres, loading__confining_pressure=["30 kPa", "120 kPa"])
         self.run_deck(deck)
         members = sorted(p for p in (self.folder / "out").iterdir() if (p / "summary.json").is_file())
