@@ -38,7 +38,7 @@ write_deck() {
     hydrostatic) loading='"pressure": "5 MPa"' ;;
     granular-triaxial)
         loading="\"ramp\": \"1 ms\", \"membrane\": {\"element\": \"30 mm\"}, $loading"
-        specimen='"diameter": "120 mm", "height": "240 mm", "particles": {"form": "stone", "size": "40 mm", "spheres": 5, "forms": 2}'
+        specimen='"diameter": "100 mm", "height": "150 mm", "particles": {"form": "stone", "size": "34 mm", "spheres": 5, "forms": 2}'
         ;;
     esac
     echo "{\"test\": \"$1\", \"specimen\": {$specimen}, \"loading\": {$loading},
