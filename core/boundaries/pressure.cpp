@@ -28,41 +28,32 @@ Vec3 area_of(const Spheres& spheres, const Pressure& p, std::uint32_t k) {
 // Of each facet's force, what each of its spheres takes.
 using Shares = std::array<double, 3>;
 
-// In proportion to sections, then moved for a moment that is that of the pressure: forces that act at d beside the middle of a facet of
-// area A and normal n have the moment -p A d x n. A shift e = h n x m with the same m for all, h the facet's least height, adds -p A h (m -
-// (n.m) n): three equations for m. Shares that act there are those that were plus grad(N_i).e, which is at most |m|.
+// In proportion to sections, then moved for a moment that is that of the pressure: a facet's force -p a (a: area vector) that acts at d
+// beside its middle has the moment -p d x a. Shares that grow by b_c.m / l, with b_c the side across from corner c, l the longest side and
+// the same m for all facets, sum to one as before, change by |m| at most, and add -p 2/l (a.a m - (a.m) a): three equations for m.
 std::vector<Shares> balanced_shares(const Spheres& spheres, const Pressure& p, const std::vector<Facet>& facets) {
-    std::vector<Shares> shares(facets.size());
-    Vec3 moment = Vec3::Zero();
-    Mat3 turned = Mat3::Zero();
     const auto sides = [&](const Facet& f) {
         const std::array at = {corner(spheres, p, f[0]), corner(spheres, p, f[1]), corner(spheres, p, f[2])};
-        return std::array<Vec3, 3>{at[2] - at[1], at[0] - at[2], at[1] - at[0]}; // across from each corner
+        return std::array<Vec3, 3>{at[2] - at[1], at[0] - at[2], at[1] - at[0]};
     };
-    const auto least_height = [](const std::array<Vec3, 3>& side, double twice_area) {
-        return twice_area / std::max({side[0].norm(), side[1].norm(), side[2].norm()});
-    };
+    const auto longest = [](const std::array<Vec3, 3>& side) { return std::max({side[0].norm(), side[1].norm(), side[2].norm()}); };
+    std::vector<Shares> shares(facets.size());
+    Vec3 moment = Vec3::Zero();
+    Mat3 added = Mat3::Zero(); // by the components of m
     for (std::size_t k = 0; k < facets.size(); ++k) {
-        const Facet& f = facets[k];
-        Shares& share = shares[k];
-        for (std::size_t c = 0; c < 3; ++c) {
-            share[c] = spheres.section(static_cast<std::size_t>(p.sphere[f[c]]));
-        }
-        const double sum = share[0] + share[1] + share[2];
-        const auto side = sides(f);
-        const Vec3 area = 0.5 * side[0].cross(side[1]);
+        const auto section = [&](std::size_t c) { return spheres.section(static_cast<std::size_t>(p.sphere[facets[k][c]])); };
+        const double sum = section(0) + section(1) + section(2);
         Vec3 beside = Vec3::Zero();
         for (std::size_t c = 0; c < 3; ++c) {
-            share[c] /= sum;
-            beside += (share[c] - 1.0 / 3.0) * corner(spheres, p, f[c]);
+            shares[k][c] = section(c) / sum;
+            beside += (shares[k][c] - 1.0 / 3.0) * corner(spheres, p, facets[k][c]);
         }
-        if (area.norm() > 0.0) {
-            const Vec3 normal = area.normalized();
-            moment += beside.cross(area);
-            turned += area.norm() * least_height(side, 2.0 * area.norm()) * (Mat3::Identity() - normal * normal.transpose());
-        }
+        const auto side = sides(facets[k]);
+        const Vec3 area = 0.5 * side[0].cross(side[1]);
+        moment += beside.cross(area);
+        added += 2.0 / longest(side) * (area.squaredNorm() * Mat3::Identity() - area * area.transpose());
     }
-    const Eigen::SelfAdjointEigenSolver<Mat3> axes(turned);
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(added);
     Vec3 m = Vec3::Zero();
     for (int k = 0; k < 3; ++k) { // but about the normal of a net that is nearly flat, where the facets have no lever
         if (axes.eigenvalues()[k] > 1e-3 * axes.eigenvalues()[2]) {
@@ -71,12 +62,8 @@ std::vector<Shares> balanced_shares(const Spheres& spheres, const Pressure& p, c
     }
     for (std::size_t k = 0; k < facets.size(); ++k) {
         const auto side = sides(facets[k]);
-        const Vec3 twice = side[0].cross(side[1]);
-        if (twice.norm() > 0.0) {
-            const Vec3 shift = least_height(side, twice.norm()) * twice.normalized().cross(m);
-            for (std::size_t c = 0; c < 3; ++c) {
-                shares[k][c] += twice.normalized().cross(side[c]).dot(shift) / twice.norm();
-            }
+        for (std::size_t c = 0; c < 3; ++c) {
+            shares[k][c] += side[c].dot(m) / longest(side);
         }
     }
     return shares;

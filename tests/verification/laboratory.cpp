@@ -102,15 +102,16 @@ TEST_CASE("surface net: goes around once, shows the true surface along its norma
         CHECK(std::hypot(rest.x(), rest.y()) < 1e-12 * scale);
         // Nor does it turn the specimen about its axis, which lubricated platens would not hinder, however far it has turned.
         CHECK(std::fabs(turning(s, p)) < 1e-12 * scale * shape_of_it.lateral_size());
-        const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3::UnitZ()).toRotationMatrix();
-        for (std::size_t k = 0; k < s.size(); ++k) {
-            s.position.set(k, turn * s.position.at(k));
-        }
+        const auto turn = [&](double angle) {
+            const Mat3 turned = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+            for (std::size_t k = 0; k < s.size(); ++k) {
+                s.position.set(k, turned * s.position.at(k));
+            }
+        };
+        turn(0.7);
         pushed(s, p);
         CHECK(std::fabs(turning(s, p)) < 1e-12 * scale * shape_of_it.lateral_size());
-        for (std::size_t k = 0; k < s.size(); ++k) {
-            s.position.set(k, turn.transpose() * s.position.at(k));
-        }
+        turn(-0.7);
         // Moved, swollen, bent: still no net push across the axis, for the rims stay level.
         for (std::size_t k = 0; k < s.size(); ++k) {
             const Vec3 at = s.position.at(k);
