@@ -104,7 +104,10 @@ constexpr const char* manifest_mark = "proveta_calibration_manifest";
 void check_target(const TargetInput& t, const std::string& at, const std::vector<TrialTest>& tests, const std::string& file,
                   input::Problems& problems) {
     const auto complain = [&](const char* key, const std::string& found, const std::string& expected, const std::string& hint = "") {
-        problems.push_back({file, at + key, found, expected, hint});
+        const std::string path = at + key; // a value that could not be read has been complained of, and is not there
+        if (std::none_of(problems.begin(), problems.end(), [&](const input::Problem& p) { return p.path == path; })) {
+            problems.push_back({file, path, found, expected, hint});
+        }
     };
     std::vector<std::string> names;
     for (const auto& test : tests) {
