@@ -137,6 +137,7 @@ class Model {
 
     void search();
     void keep_stable(bool first);
+    [[nodiscard]] double damping_share() const;
     void arrange();
     void average();
     void forces(double elapsed, bool measure);

@@ -7,7 +7,7 @@
 
 #include "lab/deck.hpp"
 #include "lab/output_folder.hpp"
-#include "lab/results.hpp"
+#include "lab/test_plots.hpp"
 
 namespace proveta {
 

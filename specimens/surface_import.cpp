@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkIdList.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataReader.h>
 #include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -18,8 +18,9 @@
 #include "specimens/obj_import.hpp"
 #include "specimens/ply_import.hpp"
 #include "specimens/stl_import.hpp"
-#include "specimens/vtk_check.hpp"
+#include "specimens/vtk_legacy.hpp"
 #include "specimens/vtk_reading.hpp"
+#include "specimens/vtk_xml_check.hpp"
 
 namespace proveta {
 
@@ -30,6 +31,32 @@ constexpr double farthest = 1e12; // m: of what is no mistake in a file
 std::string ending(const std::string& file) {
     std::string out = std::filesystem::path(file).extension().string();
     std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return out;
+}
+
+vtkSmartPointer<vtkPolyData> poly_data_of(const vtk::Legacy& legacy) {
+    const auto array_of = [&](const char* section) {
+        const vtkNew<vtkCellArray> out;
+        if (const auto found = legacy.cells.find(section); found != legacy.cells.end()) {
+            const vtk::CellLists& cells = found->second;
+            for (std::size_t k = 0; k < cells.size(); ++k) {
+                out->InsertNextCell(static_cast<int>(cells.points_of(k)));
+                for (std::size_t p = cells.first[k]; p < cells.first[k + 1]; ++p) {
+                    out->InsertCellPoint(cells.point[p]);
+                }
+            }
+        }
+        return vtkSmartPointer<vtkCellArray>(out);
+    };
+    const vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const Vec3& p : legacy.point) {
+        points->InsertNextPoint(p.data());
+    }
+    auto out = vtkSmartPointer<vtkPolyData>::New();
+    out->SetPoints(points);
+    out->SetPolys(array_of("POLYGONS"));
+    out->SetStrips(array_of("TRIANGLE_STRIPS"));
     return out;
 }
 
@@ -44,7 +71,7 @@ vtk::Read<vtkPolyData> read_as(const std::string& type, const std::string& file)
         return {read_ply(file), ""};
     }
     if (type == ".vtk") {
-        return vtk::read_text_with<vtkPolyDataReader>(file, vtk::checked_polygons(file));
+        return {poly_data_of(vtk::read_legacy(file, "POLYDATA")), ""};
     }
     if (type == ".vtp") {
         vtk::check_xml(file);
@@ -60,7 +87,7 @@ vtkSmartPointer<vtkPolyData> read_surface_data(const std::string& file) {
         throw std::runtime_error(file + ": holds no faces" + (complaint.empty() ? "" : " (" + complaint + ")"));
     }
     for (vtkCellArray* cells : {data->GetPolys(), data->GetStrips()}) {
-        vtk::check_cells(*cells, data->GetNumberOfPoints(), file);
+        (void)vtk::cell_lists(*cells, static_cast<std::size_t>(data->GetNumberOfPoints()), file); // throws
     }
     return data;
 }

@@ -112,12 +112,4 @@ template <class Reader> auto read_xml_with(const std::string& file) {
     });
 }
 
-/// Runs a reader of VTK's legacy files on a text.
-template <class Reader> auto read_text_with(const std::string& file, const std::string& text) {
-    return read_with<Reader>(file, [&](Reader& reader) {
-        reader.ReadFromInputStringOn();
-        reader.SetBinaryInputString(text.data(), static_cast<int>(text.size()));
-    });
-}
-
 } // namespace proveta::vtk

@@ -1,19 +1,18 @@
 // Unstructured grids of VTK.
 #include <fmt/format.h>
-#include <vtkCellArray.h>
 #include <vtkCellTypes.h>
-#include <vtkDataArray.h>
-#include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "specimens/solid_content.hpp"
-#include "specimens/vtk_check.hpp"
+#include "specimens/vtk_cells.hpp"
+#include "specimens/vtk_legacy.hpp"
 #include "specimens/vtk_reading.hpp"
+#include "specimens/vtk_xml_check.hpp"
 
 namespace proveta::solid_files {
 
@@ -38,89 +37,64 @@ Kind vtk_kind_of(long long type, std::size_t cell, const std::string& file) {
                                          file, cell + 1, type, name == nullptr ? "unknown" : name));
 }
 
-// Where each cell's points begin among all; one more than there are cells.
-std::vector<std::size_t> offsets_of(vtkCellArray& cells, const std::string& file) {
-    vtkDataArray* offsets = cells.GetOffsetsArray();
-    const auto points = static_cast<double>(cells.GetConnectivityArray()->GetNumberOfValues());
-    std::vector<std::size_t> out;
-    double last = 0.0;
-    for (vtkIdType k = 0; k < offsets->GetNumberOfValues(); ++k) {
-        const double offset = offsets->GetComponent(k, 0);
-        if (offset < last || offset > points || (k == 0 && offset != 0.0)) {
-            throw std::runtime_error(fmt::format("{}: offset {} of the cells is {}; {} points are listed", file, k + 1, offset, points));
+// Before there are elements of it: what a file holds.
+struct Grid {
+    std::vector<Vec3> point;
+    vtk::CellLists cells;
+    std::vector<long long> type;
+};
+
+Grid read_legacy_grid(const std::string& file) {
+    vtk::Legacy legacy = vtk::read_legacy(file, "UNSTRUCTURED_GRID");
+    return {std::move(legacy.point), std::move(legacy.cells["CELLS"]), std::move(legacy.type)};
+}
+
+Grid read_xml_grid(const std::string& file) {
+    vtk::check_xml(file);
+    const auto [grid, complaint] = vtk::read_xml_with<vtkXMLUnstructuredGridReader>(file);
+    if (!complaint.empty() || grid == nullptr) {
+        throw std::runtime_error(file + ": cannot be read (" + complaint + ")");
+    }
+    if (grid->GetNumberOfPoints() >= static_cast<vtkIdType>(no_node)) {
+        throw std::runtime_error(file + ": too many points");
+    }
+    Grid out;
+    for (vtkIdType k = 0; grid->GetPoints() != nullptr && k < grid->GetNumberOfPoints(); ++k) {
+        double x[3];
+        grid->GetPoint(k, x);
+        out.point.emplace_back(x[0], x[1], x[2]);
+    }
+    if (grid->GetCells() != nullptr && grid->GetCellTypesArray() != nullptr) {
+        out.cells = vtk::cell_lists(*grid->GetCells(), out.point.size(), file);
+        for (vtkIdType k = 0; k < grid->GetCellTypesArray()->GetNumberOfValues(); ++k) {
+            out.type.push_back(grid->GetCellTypesArray()->GetValue(k));
         }
-        last = offset;
-        out.push_back(static_cast<std::size_t>(offset));
     }
     return out;
-}
-
-void add_points(vtkUnstructuredGrid& grid, Content& out) {
-    const vtkIdType n = grid.GetPoints() == nullptr ? 0 : grid.GetNumberOfPoints();
-    for (vtkIdType k = 0; k < n; ++k) {
-        double x[3];
-        grid.GetPoint(k, x);
-        out.node.emplace_back(x[0], x[1], x[2]);
-    }
-}
-
-void add_cells(vtkUnstructuredGrid& grid, const std::string& file, Content& out) {
-    vtkCellArray* cells = grid.GetCells();
-    vtkUnsignedCharArray* types = grid.GetCellTypesArray();
-    if (cells == nullptr || types == nullptr) {
-        return;
-    }
-    const auto first = offsets_of(*cells, file);
-    const std::size_t n = first.empty() ? 0 : first.size() - 1;
-    if (types->GetNumberOfValues() != static_cast<vtkIdType>(n)) {
-        throw std::runtime_error(fmt::format("{}: {} cells and {} types of cells", file, n, types->GetNumberOfValues()));
-    }
-    vtkDataArray* point = cells->GetConnectivityArray();
-    for (std::size_t k = 0; k < n; ++k) {
-        Element element;
-        element.kind = vtk_kind_of(types->GetValue(static_cast<vtkIdType>(k)), k, file);
-        element.node.fill(no_node);
-        if (dimension_of(element.kind) < 2) { // of any number of points, and of no use
-            out.elements.push_back(element);
-            continue;
-        }
-        if (first[k + 1] - first[k] != nodes_of(element.kind)) {
-            throw std::runtime_error(fmt::format("{}: cell {} has {} points where {} are expected", file, k + 1, first[k + 1] - first[k],
-                                                 nodes_of(element.kind)));
-        }
-        for (std::size_t c = 0; c < nodes_of(element.kind); ++c) {
-            const std::size_t at = first[k] + c;
-            const double id = point->GetComponent(static_cast<vtkIdType>(at), 0);
-            if (!(id >= 0.0 && id < static_cast<double>(out.node.size()))) {
-                throw std::runtime_error(fmt::format("{}: cell {} has point {}, and there are {}", file, k + 1, id, out.node.size()));
-            }
-            element.node[c] = static_cast<std::uint32_t>(id);
-        }
-        out.elements.push_back(element);
-    }
 }
 
 } // namespace
 
 Content read_vtk(const std::string& file, bool legacy) {
-    vtk::Read<vtkUnstructuredGrid> read;
-    if (legacy) {
-        const auto check = [&](long long type, std::size_t cell) { (void)vtk_kind_of(type, cell, file); };
-        read = vtk::read_text_with<vtkUnstructuredGridReader>(file, vtk::checked_grid(file, check));
-    } else {
-        vtk::check_xml(file);
-        read = vtk::read_xml_with<vtkXMLUnstructuredGridReader>(file);
-    }
-    vtkUnstructuredGrid* grid = read.data;
-    if (!read.complaint.empty() || grid == nullptr) {
-        throw std::runtime_error(file + ": cannot be read (" + read.complaint + ")");
-    }
-    if (grid->GetNumberOfPoints() >= static_cast<vtkIdType>(no_node)) {
-        throw std::runtime_error(file + ": too many points");
+    Grid grid = legacy ? read_legacy_grid(file) : read_xml_grid(file);
+    if (grid.type.size() != grid.cells.size()) {
+        throw std::runtime_error(fmt::format("{}: {} cells and {} types of cells", file, grid.cells.size(), grid.type.size()));
     }
     Content out;
-    add_points(*grid, out);
-    add_cells(*grid, file, out);
+    out.node = std::move(grid.point);
+    for (std::size_t k = 0; k < grid.cells.size(); ++k) {
+        Element element;
+        element.kind = vtk_kind_of(grid.type[k], k, file);
+        element.node.fill(no_node);
+        if (const std::size_t points = grid.cells.points_of(k); dimension_of(element.kind) >= 2) { // others are of no use
+            if (points != nodes_of(element.kind)) {
+                throw std::runtime_error(
+                    fmt::format("{}: cell {} has {} points where {} are expected", file, k + 1, points, nodes_of(element.kind)));
+            }
+            std::copy_n(grid.cells.point.begin() + static_cast<std::ptrdiff_t>(grid.cells.first[k]), points, element.node.begin());
+        }
+        out.elements.push_back(element);
+    }
     return out;
 }
 

@@ -1,4 +1,5 @@
-// What files of VTK's XML formats announce, before its readers make room for it.
+#include "specimens/vtk_xml_check.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <stdexcept>
 
 #include "specimens/solid_content.hpp"
-#include "specimens/vtk_check.hpp"
 
 namespace proveta::vtk {
 

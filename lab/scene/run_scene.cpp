@@ -11,9 +11,9 @@
 #include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
-#include "lab/results.hpp"
 #include "lab/scene/performance.hpp"
 #include "lab/scene/scene_samples.hpp"
+#include "lab/summary.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
 

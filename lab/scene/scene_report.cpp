@@ -10,7 +10,7 @@
 #include "lab/citation.hpp"
 #include "lab/provenance.hpp"
 #include "lab/quasi_static.hpp"
-#include "lab/results.hpp"
+#include "lab/summary.hpp"
 
 namespace proveta {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "lab/results.hpp"
 #include "lab/series/plan.hpp"
+#include "lab/test_plots.hpp"
 
 namespace proveta {
 

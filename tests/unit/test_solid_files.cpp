@@ -333,7 +333,7 @@ TEST_CASE("bad VTK files are refused with the reason") {
     const auto xml = [&](const std::string& text) { return message(folder.file("bad.vtu", text)); };
     says(legacy("this is nothing\n"), "cannot be read");
     says(legacy(replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA")), "UNSTRUCTURED_GRID is expected in the fourth line and \"POLYDATA\"");
-    says(legacy(replaced(vtk, "POINTS 9", "POINTS 9000000000000")), "9000000000000 points");
+    says(legacy(replaced(vtk, "POINTS 9", "POINTS 9000000000000")), "\"9000000000000\" are announced");
     says(legacy(replaced(vtk, "0 0 2\n", "0 zero 2\n")), "POINTS: 27 numbers are expected and number 26 is \"zero\"");
     says(legacy(replaced(vtk, "8 0 1 2 3", "9 0 1 2 3")), "CELLS");
     says(legacy(replaced(vtk, "8 0 1 2 3", "8000 0 1 2 3")), "cell 1 has more points");
@@ -344,15 +344,17 @@ TEST_CASE("bad VTK files are refused with the reason") {
     says(legacy(replaced(vtk, "12\n10\n", "12\n42\n")), "vtkPolyhedron");
     says(legacy(replaced(vtk, "12\n10\n", "12\n250\n")), "cell 2 is of type 250");
     says(legacy(replaced(vtk, "12\n10\n", "12\n12\n")), "cell 2 has 4 points where 8");
-    says(legacy(vtk.substr(0, vtk.find("CELL_TYPES"))), "holds no tetrahedra");
-    says(legacy(replaced(vtk, "CELL_TYPES 3", "CELL_TYPES 2")), "3 cells and 2 types");
+    says(legacy(vtk.substr(0, vtk.find("CELL_TYPES"))), "3 cells and 0 types");
+    says(legacy(vtk.substr(0, vtk.find("CELLS"))), "holds no tetrahedra");
+    says(legacy(replaced(vtk, "CELL_TYPES 3\n12\n", "CELL_TYPES 2\n")), "3 cells and 2 types");
+    says(legacy(replaced(vtk, "CELL_TYPES 3", "CELL_TYPES 2")), "a section, such as POINTS or CELLS, is expected and \"3\"");
     says(legacy(replaced(vtk, "0 0 2\n", "0 0 1\n")), "no volume");
     says(legacy(replaced(vtk, "Version 3.0", "Version= 3.0")), "Version is expected");
     says(legacy(replaced(vtk, "Version 3.0", "Version 30.0")), "\"30.0\"");
     says(legacy(replaced(vtk, "POINTS 9", "POINTS 18446744073709551615")), "18446744073709551615");
     CHECK(legacy(replaced(vtk, "SCALARS material", "SCALARS cells")).empty());
     says(legacy(replaced(vtk, "CELLS 3", "CELLS-3 1")), "\"CELLS-3\"");
-    says(legacy(vtk + "CELLS 1 5\n4 0 1 2 3\n"), "a second section CELLS");
+    says(legacy(replaced(vtk, "CELL_DATA", "CELLS 1 5\n4 0 1 2 3\nCELL_DATA")), "a second section CELLS");
 
     says(xml("<VTKFile"), "cannot be read");
     says(xml(vtu.substr(0, vtu.size() / 2)), "cannot be read");
