@@ -155,6 +155,12 @@ Deck read_deck(const Json& given, const std::string& file) {
 void apply_settings(Json& json, const std::vector<std::string>& settings) {
     input::Problems problems;
     for (const auto& setting : settings) {
+        try {
+            (void)Json(setting).dump();
+        } catch (const Json::type_error&) {
+            problems.push_back({"--set", "", "text that is not UTF-8", "key=value in UTF-8", ""});
+            continue;
+        }
         const auto equals = setting.find('=');
         if (equals == std::string::npos || equals == 0) {
             problems.push_back({"--set", "", "\"" + setting + "\"", "key=value, such as loading.rate=0.02", ""});
@@ -162,10 +168,7 @@ void apply_settings(Json& json, const std::vector<std::string>& settings) {
         }
         std::string path = setting.substr(0, equals);
         const std::string text = setting.substr(equals + 1);
-        Json value = Json::parse(text, nullptr, false);
-        if (value.is_discarded()) {
-            value = text;
-        }
+        const Json value = Json::accept(text) ? input::parse_json(text, "--set " + path) : Json(text);
         Json* at = &json;
         std::size_t start = 0;
         while (at != nullptr) {

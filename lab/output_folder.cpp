@@ -5,17 +5,51 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <vector>
 
 #include "core/input/json.hpp"
+#include "reports/files.hpp"
 
 namespace proveta {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+// What an earlier result has left in its folder, besides the members of a series and the manifest.
+constexpr std::array result_files{"report.html",
+                                  "summary.json",
+                                  "curve.csv",
+                                  "events.csv",
+                                  "acoustic.csv",
+                                  "energy.csv",
+                                  "particles.csv",
+                                  "checkpoint.h5",
+                                  "checkpoint.earlier.h5",
+                                  "rate_check.h5",
+                                  "rate_check.earlier.h5",
+                                  "series.pvd",
+                                  "series.csv",
+                                  "study.csv",
+                                  "mean_curves",
+                                  "fields",
+                                  "pictures",
+                                  "spheres.pvd",
+                                  "bonds.pvd",
+                                  "platens.pvd",
+                                  "membrane.pvd",
+                                  "views.py",
+                                  "table.csv",
+                                  "table.h5",
+                                  "failures.csv",
+                                  "sensitivity.csv",
+                                  "curve_sensitivity.csv",
+                                  "trials.csv",
+                                  "card.json",
+                                  "progress.json"};
 
 bool is_half(const fs::path& file) { return file.extension() == ".partial" || file.extension() == ".next"; }
 
@@ -26,62 +60,47 @@ bool holds_halves_only(const fs::path& folder) {
     return std::all_of(begin(entries), end(entries), [](const auto& entry) { return is_half(entry.path()); });
 }
 
-} // namespace
-
-OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
-    const auto refuse = [&](const std::string& found, const std::string& expected) {
-        throw input::InputError({{"--out", "", "\"" + path.string() + "\", " + found, expected, ""}});
-    };
-    std::error_code error;
-    for (fs::path p = fs::absolute(path); !p.empty() && !fs::exists(p, error) && p != p.root_path(); p = p.parent_path()) {
-        first_made_ = p;
-    }
-    if (fs::exists(path, error) && !fs::is_directory(path, error)) {
-        refuse("which is a file", "a folder");
-    }
-    fs::create_directories(path, error);
-    if (error) {
-        const std::string why = error.message();
-        if (!first_made_.empty()) {
-            fs::remove_all(first_made_, error);
+// The manifest of an earlier result; no object where there is none, or one of another program.
+input::Json own_manifest(const fs::path& folder) {
+    std::ifstream in(folder / "manifest.json");
+    input::Json json = in ? input::Json::parse(in, nullptr, false) : input::Json();
+    if (json.is_object()) {
+        for (const auto& [key, value] : json.items()) {
+            if (key.starts_with("proveta_") && key.ends_with("manifest")) {
+                return json;
+            }
         }
-        refuse("which cannot be made: " + why, "a folder that can be written");
     }
-    if (access(path.c_str(), W_OK | X_OK) != 0) {
-        refuse("which cannot be written", "a folder that can be written");
-    }
-    const bool earlier = fs::exists(path / "manifest.json", error) || fs::exists(path / "ledger.jsonl", error);
-    if (!holds_halves_only(path) && !earlier) {
-        refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
-    }
-    lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // A file system without locks is no reason to refuse.
-    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        close(lock_);
-        refuse("into which another run is writing now", "a folder of its own");
-    }
+    return {};
 }
 
-namespace {
+bool holds_ledger(const fs::path& folder) {
+    std::ifstream in(folder / "ledger.jsonl");
+    std::string start(9, '\0'); // of a line of trials; a ledger without any may be empty
+    return in && (!in.read(start.data(), 9) || start == "{\"jobs\":[" || start.starts_with("{\"trial\":"));
+}
 
-// Folders that an earlier series made for its members, by its manifest.
-std::vector<fs::path> members_in(const fs::path& folder) {
+// Folders that an earlier series made for its members.
+std::vector<fs::path> members_in(const fs::path& folder, const input::Json& manifest) {
     std::vector<fs::path> out;
-    std::ifstream in(folder / "manifest.json");
-    const auto manifest = input::Json::parse(in, nullptr, false);
-    if (!manifest.is_object() || !manifest.contains("proveta_series_manifest") || !manifest.contains("members")) {
+    if (!manifest.is_object() || !manifest.contains("members")) {
         return out;
     }
     for (const auto& member : manifest["members"]) {
-        if (!member.is_object() || !member.contains("name") || !member["name"].is_string()) {
-            continue;
-        }
-        const fs::path name = member["name"].get<std::string>();
-        if (name.has_filename() && name == name.filename() && fs::exists(folder / name / "manifest.json")) {
+        const std::string name = input::text_at(member, "name");
+        if (is_member_name(name) && own_manifest(folder / name).is_object()) {
             out.push_back(folder / name);
         }
     }
     return out;
+}
+
+void clear(const fs::path& path) {
+    std::error_code error;
+    fs::remove_all(path, error);
+    if (error) {
+        throw FileError(path.string() + " cannot be removed: " + error.message());
+    }
 }
 
 // What a process that was killed did not finish writing.
@@ -103,38 +122,85 @@ void remove_halves(const fs::path& folder) {
 
 } // namespace
 
+bool is_member_name(const std::string& name) {
+    constexpr std::size_t longest = 200; // bytes; file systems take 255, and endings come to it
+    return !name.empty() && name.size() <= longest && name.front() != '.' && name.find_first_of("/\\") == std::string::npos &&
+           name != "manifest.json" && name != "ledger.jsonl" && name != "trials" && name != "specimens" &&
+           std::find(result_files.begin(), result_files.end(), name) == result_files.end();
+}
+
+std::string result_name(const fs::path& file, const std::string& otherwise) {
+    const std::string stem = file.stem().string();
+    return stem != "manifest" && is_member_name(stem) ? stem : otherwise;
+}
+
+OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
+    const auto refuse = [&](const std::string& found, const std::string& expected) {
+        take_away();
+        throw input::InputError({{"--out", "", "\"" + path.string() + "\", " + found, expected, ""}});
+    };
+    std::error_code error;
+    for (fs::path p = fs::absolute(path).lexically_normal(); !p.empty() && !fs::exists(p, error) && p != p.root_path();
+         p = p.parent_path()) {
+        if (p.has_filename()) { // else it ends in a slash
+            made_.push_back(p);
+        }
+    }
+    if (fs::exists(path, error) && !fs::is_directory(path, error)) {
+        refuse("which is a file", "a folder");
+    }
+    fs::create_directories(path, error);
+    if (error) {
+        refuse("which cannot be made: " + error.message(), "a folder that can be written");
+    }
+    if (access(path.c_str(), W_OK | X_OK) != 0) {
+        refuse("which cannot be written", "a folder that can be written");
+    }
+    if (!holds_halves_only(path) && !own_manifest(path).is_object() && !holds_ledger(path)) {
+        refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
+    }
+    lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // A file system without locks is no reason to refuse.
+    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        close(lock_);
+        refuse("into which another run is writing now", "a folder of its own");
+    }
+}
+
+// What was made here goes, as long as nobody has put anything into it.
+void OutputFolder::take_away() const {
+    for (const auto& folder : made_) {
+        std::error_code ignored;
+        fs::remove(folder, ignored);
+    }
+}
+
 OutputFolder::~OutputFolder() {
     if (lock_ >= 0) {
         close(lock_);
     }
-    if (!begun_ && !first_made_.empty()) {
-        std::error_code ignored;
-        fs::remove_all(first_made_, ignored);
+    if (!begun_) {
+        take_away();
     }
 }
 
 void OutputFolder::begin() {
     begun_ = true;
-    for (const auto& member : members_in(path_)) {
-        fs::remove_all(member);
+    auto manifest = own_manifest(path_);
+    if (manifest.is_object()) { // who finds it now finds no whole result
+        manifest["status"] = "cleared";
+        report::write_json(file("manifest.json"), manifest);
     }
-    for (const char* name : {"report.html",     "summary.json",
-                             "manifest.json",   "curve.csv",
-                             "events.csv",      "acoustic.csv",
-                             "energy.csv",      "particles.csv",
-                             "checkpoint.h5",   "checkpoint.earlier.h5",
-                             "rate_check.h5",   "rate_check.earlier.h5",
-                             "series.pvd",      "series.csv",
-                             "study.csv",       "mean_curves",
-                             "fields",          "pictures",
-                             "spheres.pvd",     "bonds.pvd",
-                             "platens.pvd",     "membrane.pvd",
-                             "views.py",        "table.csv",
-                             "table.h5",        "failures.csv",
-                             "sensitivity.csv", "curve_sensitivity.csv"}) {
-        fs::remove_all(path_ / name);
+    for (const auto& member : members_in(path_, manifest)) {
+        clear(member);
     }
-    fs::create_directories(path_); // a series that was cleared may have held it
+    for (const char* name : result_files) {
+        clear(path_ / name);
+    }
+    if (manifest.is_object()) { // the last: until then it says whose the folder is
+        clear(path_ / "manifest.json");
+    }
+    make_folder(path_.string()); // a series that was cleared may have held it
     remove_halves(path_);
 }
 

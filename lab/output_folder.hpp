@@ -3,11 +3,21 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "core/files/whole_file.hpp"
 
 namespace proveta {
 
+/// Whether a member of a series may be called so: a folder beside the files of the series, which is none of them.
+bool is_member_name(const std::string& name);
+
+/// The stem of a file as the name of a folder; `otherwise` where it is none, or that of a manifest.
+std::string result_name(const std::filesystem::path& file, const std::string& otherwise);
+
 /// Claims a folder for a result, for this process alone. It must be new, empty, or hold an earlier result, which is cleared only by
-/// `begin`. A folder made here and never begun is taken away again, so that a refused run leaves nothing behind.
+/// `begin`. A folder made here and never begun is taken away again, unless somebody has put something into it, so that a
+/// refused run leaves nothing behind.
 class OutputFolder {
   public:
     /// Throws InputError when the folder cannot be used, saying why: another process that writes into it is one reason.
@@ -26,10 +36,26 @@ class OutputFolder {
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:
+    void take_away() const;
+
     std::filesystem::path path_;
-    std::filesystem::path first_made_; // topmost folder that did not exist before
-    int lock_ = -1;                    // held on the folder itself: it leaves no file, and goes with the process
+    std::vector<std::filesystem::path> made_; // folders that did not exist before, the innermost first
+    int lock_ = -1;                           // held on the folder itself: it leaves no file, and goes with the process
     bool begun_ = false;
 };
+
+/// Carries work out in a folder. What the machine does not let it write is a FileError that also says how to go on.
+template <class Work> auto with_way_on(const std::filesystem::path& folder, const Work& work) {
+    const auto way_on = [&](const std::string& what) {
+        return FileError(what + "; once that is mended, go on with: proveta resume " + folder.string());
+    };
+    try {
+        return work();
+    } catch (const FileError& e) {
+        throw way_on(e.what());
+    } catch (const std::filesystem::filesystem_error& e) {
+        throw way_on(e.path1().string() + ": " + e.code().message());
+    }
+}
 
 } // namespace proveta

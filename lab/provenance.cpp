@@ -51,10 +51,7 @@ std::string hash_of_file(const std::string& file) {
     return hex(hash.value());
 }
 
-namespace {
-
-// Files that a test was read from, with their hashes.
-input::Json input_files(const Deck& deck) {
+std::vector<std::string> files_of(const Deck& deck) {
     std::vector<std::string> names{deck.source, deck.material.card, deck.specimen.file};
     for (const auto& region : deck.regions) {
         names.push_back(region.material.card);
@@ -62,18 +59,18 @@ input::Json input_files(const Deck& deck) {
     std::vector<std::string> files;
     for (const auto& name : names) {
         const auto base = name == deck.source ? std::filesystem::current_path() : std::filesystem::path(deck.folder);
-        files.push_back(name.empty() ? "" : (base / name).string());
+        if (!name.empty()) {
+            files.push_back((base / name).string());
+        }
     }
-    return hashes_of(files);
+    return files;
 }
-
-} // namespace
 
 input::Json hashes_of(const std::vector<std::string>& files) {
     input::Json out = input::Json::object();
     for (const auto& name : files) {
-        const std::string file = name.empty() ? "" : std::filesystem::absolute(name).lexically_normal().string();
-        if (const std::string hash = file.empty() ? "" : hash_of_file(file); !hash.empty()) {
+        const std::string file = std::filesystem::absolute(name).lexically_normal().string();
+        if (const std::string hash = hash_of_file(file); !hash.empty()) {
             out[file] = hash;
         }
     }
@@ -94,7 +91,7 @@ input::Json manifest(const Deck& deck, const Bench& bench, const std::string& co
     j["started"] = now_utc();
     j["resumed"] = input::Json::array();
     j["deck_file"] = deck.source;
-    j["files"] = input_files(deck);
+    j["files"] = hashes_of(files_of(deck));
     j["card"] = deck.material.card;
     j["seed"] = deck.specimen.seed;
     j["specimen_hash"] = hex(bench.specimen_hash);
@@ -112,6 +109,9 @@ input::Json manifest_to_go_on_with(const std::string& file, const input::Json& f
     }
     if (runs_on) {
         j["threads"] = omp_get_max_threads();
+        if (!j["resumed"].is_array()) {
+            j["resumed"] = input::Json::array();
+        }
         j["resumed"].push_back(now_utc());
     }
     return j;

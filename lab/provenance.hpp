@@ -30,6 +30,9 @@ std::string hash_of_file(const std::string& file);
 /// Hashes of the files that can be read, by their names without detours.
 input::Json hashes_of(const std::vector<std::string>& files);
 
+/// Files that a test was read from: its deck, its cards, its specimen.
+std::vector<std::string> files_of(const Deck& deck);
+
 /// manifest.json of a test that starts now: the resolved deck, versions, threads, seed, the files it was read from, hashes, and the command
 /// that runs it again. Its "status" is to be running, complete, interrupted or failed.
 input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& folder);

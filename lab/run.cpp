@@ -28,7 +28,7 @@ namespace proveta {
 namespace {
 
 void write_picture(const OutputFolder& out, const std::string& name, const std::string& png) {
-    std::filesystem::create_directories(out.path() / "pictures");
+    make_folder(out.file("pictures"));
     report::write_file(out.file("pictures/" + name), png);
 }
 
@@ -39,7 +39,7 @@ class FieldSeries {
 
     // stills: height of a picture in pixels; 0: none.
     void write(const Bench& bench, std::int64_t stills) {
-        std::filesystem::create_directories(out_.path() / "fields");
+        make_folder(out_.file("fields"));
         std::vector<std::string> parts{"spheres", "bonds", "platens"};
         std::vector<report::Geometry> geometry{sphere_fields(bench), bond_fields(bench), platen_fields(bench)};
         if (!bench.model->walls.bodies.empty()) {
@@ -134,6 +134,10 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     Bench bench = set_up(deck, std::move(specimen));
     log_set_up(bench, since(before_set_up), watch);
 
+    if (passage == Passage::begin && interrupted()) {
+        throw StoppedBefore();
+    }
+    const std::string owner = owner_of(deck, bench); // before anything is cleared: a text may be none that can be written
     input::Json sheet = manifest(deck, bench, command, out.path().string());
     const bool go_on = passage != Passage::begin;
     if (go_on) {
@@ -151,7 +155,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     FieldSeries series(out);
     double before = 0.0; // seconds of loading in earlier processes
     const auto loading = Clock::now();
-    Keeper keeper(out, "checkpoint.h5", owner_of(deck, bench), deck.output.checkpoint_every, [&](StateVisitor& visit) {
+    Keeper keeper(out, "checkpoint.h5", owner, deck.output.checkpoint_every, [&](StateVisitor& visit) {
         double seconds = before + since(loading);
         visit("seconds_of_loading", seconds);
         before = seconds - since(loading);
@@ -175,7 +179,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     }
     TestData data = run_protocol(deck, bench, hooks);
     if (deck.protocol->checks_rate() && data.failure.empty() && !data.interrupted) {
-        Keeper of_check(out, "rate_check.h5", owner_of(deck, bench), deck.output.checkpoint_every, [](StateVisitor&) {});
+        Keeper of_check(out, "rate_check.h5", owner, deck.output.checkpoint_every, [](StateVisitor&) {});
         TestHooks again;
         again.progress = [&](const TestData& slow, double done) {
             if (!slow.curve.rows.empty()) {
@@ -215,7 +219,9 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     return {status, std::move(record), main_curve(*deck.protocol, data)};
 }
 
-RunStatus run_test(const Deck& deck, const RunOptions& options) {
+namespace {
+
+RunStatus make_and_test(const Deck& deck, const RunOptions& options) {
     OutputFolder out(options.out);
     Progress progress(options.quiet);
     const auto clock = Clock::now();
@@ -229,21 +235,32 @@ RunStatus run_test(const Deck& deck, const RunOptions& options) {
                                         [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
     log(fmt::format("specimen of {} {} ready after {:.1f} s", specimen.size(), specimen.stones.empty() ? "spheres" : "stones",
                     since(clock)));
+    if (options.passage == Passage::begin && interrupted()) {
+        throw StoppedBefore();
+    }
     const auto show = [&](const std::string& phase, const std::string& figures, double) {
         progress.show(phase == "loading" ? figures : phase + ": " + figures);
     };
+    const Finished finished = with_way_on(out.path(), [&] {
+        return carry_out(deck, std::move(specimen), out, options.command, {show, log}, options.passage);
+    });
+    progress.end_line();
+    fmt::print("{}", as_text(finished.record));
+    fmt::print("results in {}\n", out.path().string());
+    if (finished.status == RunStatus::interrupted) {
+        spdlog::warn("interrupted; to go on: proveta resume {}", out.path().string());
+    }
+    return finished.status;
+}
+
+} // namespace
+
+RunStatus run_test(const Deck& deck, const RunOptions& options) {
     try {
-        const Finished finished = carry_out(deck, std::move(specimen), out, options.command, {show, log}, options.passage);
-        progress.end_line();
-        fmt::print("{}", as_text(finished.record));
-        fmt::print("results in {}\n", out.path().string());
-        if (finished.status == RunStatus::interrupted) {
-            spdlog::warn("interrupted; to go on: proveta resume {}", out.path().string());
-        }
-        return finished.status;
-    } catch (const FileError& e) {
-        progress.end_line();
-        throw FileError(fmt::format("{}; once that is mended, go on with: proveta resume {}", e.what(), out.path().string()));
+        return make_and_test(deck, options);
+    } catch (const StoppedBefore& e) {
+        spdlog::warn("{}", e.what());
+        return RunStatus::interrupted;
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 
 #include "lab/deck.hpp"
@@ -45,10 +46,15 @@ struct Finished {
     MainCurve curve;
 };
 
+/// The user stopped a test before it began: nothing was cleared or written.
+struct StoppedBefore : std::runtime_error {
+    StoppedBefore() : std::runtime_error("interrupted before the test began: nothing was written") {}
+};
+
 /// Tests a specimen and writes the folder, which is begun once the specimen is in the press. Several threads may do so at once, each with
 /// a folder of its own; the test is worked on by as many threads as OpenMP would give to the calling one. Files of a run that goes on from
 /// a checkpoint are the same to the byte as those of one that was never stopped. Throws InputError, before
-/// anything is written, when deck and specimen do not fit together or the checkpoints are of another test, and FileError.
+/// anything is written, when deck and specimen do not fit together or the checkpoints are of another test, StoppedBefore, and FileError.
 Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const std::string& command, const RunWatch& watch,
                    Passage passage = Passage::begin);
 

@@ -109,7 +109,7 @@ class Run {
             } else if (data_.stopped_by.empty()) {
                 data_.stopped_by = "the loading is complete";
             }
-            if (deck_.output.fields > 0 && over_ == 0) {
+            if (deck_.output.fields > 0 && over_ == 0 && model_.steps() > 0) { // nothing is measured before the first step
                 hooks_.fields();
             }
         } catch (const NumericalFailure& e) {

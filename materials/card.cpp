@@ -39,7 +39,7 @@ void declare(input::Visitor& v, Card& c) {
     v.number_or_word("area_factor", c.area_factor,
                      {{"auto", "40 P / N_c of the specimen's porosity and mean coordination (5.6); only with minimum_radius"}}, Unit::none,
                      above(0), "global factor alpha on all areas (5.5)");
-    v.number("density", c.density, Unit::density, above(0), "density of the spheres");
+    v.number("density", c.density, Unit::density, input::between(1e-3, 1e9), "density of the spheres");
     v.choice("elasticity", c.elasticity,
              {{"calibrated",
                "the specimen's: factors a and b are found for each specimen so that it has this E and nu; where no k_t / k_n gives nu, the "

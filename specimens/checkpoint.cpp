@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/files/whole_file.hpp"
 #include "specimens/hdf5_file.hpp"
 
 namespace proveta {
@@ -43,7 +44,7 @@ void save_checkpoint(const std::string& file, const std::string& owner, const Vi
     h.close();
     std::error_code none_before;
     std::filesystem::rename(file, earlier_checkpoint(file), none_before);
-    std::filesystem::rename(next, file); // who is killed just before it still has the earlier one
+    move_into_place(next, file); // who is killed just before it still has the earlier one
 }
 
 void load_checkpoint(const std::string& file, const std::string& owner, const VisitState& state) {

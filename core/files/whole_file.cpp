@@ -34,9 +34,9 @@ class Descriptor {
 // What a file is called until it is whole.
 std::string partial_name(const std::string& file) { return file + ".partial"; }
 
-[[noreturn]] void fail(const std::string& file) {
+[[noreturn]] void fail(const std::string& file, const std::string& partial) {
     const std::string why = std::strerror(errno);
-    std::remove(partial_name(file).c_str());
+    std::remove(partial.c_str());
     throw FileError(file + " cannot be written: " + why);
 }
 
@@ -55,26 +55,33 @@ bool write_all(int to, const char* data, std::size_t size) {
     return true;
 }
 
-// Renames, and has the folder remember it. A file system that cannot do the latter is no reason to fail.
-void put_in_place(const std::string& file) {
-    if (std::rename(partial_name(file).c_str(), file.c_str()) != 0) {
-        fail(file);
+} // namespace
+
+void move_into_place(const std::string& from, const std::string& file) {
+    if (std::rename(from.c_str(), file.c_str()) != 0) {
+        fail(file, from);
     }
     const auto folder = std::filesystem::path(file).parent_path();
     const Descriptor at(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
-    if (at.good()) {
+    if (at.good()) { // a file system that cannot do it is no reason to fail
         ::fsync(at.id());
     }
 }
 
-} // namespace
-
 void write_whole(const std::string& file, const void* data, std::size_t size) {
     Descriptor out(partial_name(file), O_WRONLY | O_CREAT | O_TRUNC);
     if (!out.good() || !write_all(out.id(), static_cast<const char*>(data), size) || ::fsync(out.id()) != 0 || !out.close()) {
-        fail(file);
+        fail(file, partial_name(file));
     }
-    put_in_place(file);
+    move_into_place(partial_name(file), file);
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw FileError(folder + " cannot be made: " + error.message());
+    }
 }
 
 } // namespace proveta

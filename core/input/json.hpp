@@ -36,6 +36,10 @@ struct InputError : std::runtime_error {
 /// Parses a file. Throws InputError when it is missing, unreadable, empty, too large or not JSON; the message names line and column.
 Json load_json(const std::string& file);
 
+/// Parses a text of at most 64 levels of objects and lists, of which no object has a key twice. Throws InputError; source is what it is
+/// called there.
+Json parse_json(const std::string& text, const std::string& source);
+
 /// The text that an object has under a key; empty when it has none, or when it is no object.
 std::string text_at(const Json& json, const char* key);
 

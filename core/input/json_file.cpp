@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "core/input/json.hpp"
 #include "core/input/text_file.hpp"
@@ -34,6 +35,99 @@ std::string all_problems(const Problems& list) {
 
 InputError::InputError(Problems list) : std::runtime_error(all_problems(list)), problems(std::move(list)) {}
 
+namespace {
+
+// Looks at a text while it is parsed: how deep it goes, how many keys objects have, and which of them twice, of which the parser would take
+// the last without a word.
+class ParseGuard {
+  public:
+    explicit ParseGuard(std::string source) : source_(std::move(source)) {}
+
+    void look(Json::parse_event_t event, const Json& parsed) {
+        using Event = Json::parse_event_t;
+        switch (event) {
+        case Event::object_start:
+        case Event::array_start:
+            count();
+            if (around_.size() >= 64) {
+                fail("more than 64 nested levels", "a flat JSON object");
+            }
+            around_.push_back({event == Event::array_start, 0, "", {}});
+            break;
+        case Event::object_end:
+        case Event::array_end: around_.pop_back(); break;
+        case Event::value: count(); break;
+        case Event::key: key(parsed.get<std::string>()); break;
+        }
+    }
+    void end() const {
+        if (!twice_.empty()) {
+            throw InputError(twice_);
+        }
+    }
+
+  private:
+    // An object or a list that is being read.
+    struct Around {
+        bool list;
+        std::size_t entries;
+        std::string key; // the last
+        std::set<std::string> keys;
+    };
+
+    [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+        throw InputError({{source_, "", found, expected, ""}});
+    }
+    void count() {
+        if (!around_.empty() && around_.back().list) {
+            ++around_.back().entries;
+        }
+    }
+    void key(const std::string& name) {
+        Around& object = around_.back();
+        object.key = name;
+        if (!object.keys.insert(name).second) {
+            std::string path;
+            for (const auto& a : around_) {
+                path += "/" + (a.list ? std::to_string(a.entries - 1) : a.key);
+            }
+            twice_.push_back(
+                {source_, path, "the key a second time", "each key of an object once", "the last would count and the others not"});
+        }
+        if (object.keys.size() > 10000) { // looked up one by one: very many would take for ever
+            fail("an object of more than 10000 keys", "a JSON file of a few kilobytes");
+        }
+    }
+
+    std::string source_;
+    std::vector<Around> around_;
+    Problems twice_;
+};
+
+} // namespace
+
+Json parse_json(const std::string& text, const std::string& source) {
+    ParseGuard guard(source);
+    Json json;
+    try {
+        json = Json::parse(text, [&](int, Json::parse_event_t event, Json& parsed) {
+            guard.look(event, parsed);
+            return true;
+        });
+    } catch (const Json::exception& e) {
+        std::string what = e.what();
+        if (const auto at = what.find("] "); at != std::string::npos) {
+            what = what.substr(at + 2);
+        }
+        std::replace_if(
+            what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
+        throw InputError({{source, "", "text that is not JSON: " + what, "valid JSON",
+                           text.find("NaN") != std::string::npos ? "JSON has no NaN; leave the key out to get its default" : ""}});
+    }
+    guard.end();
+    return json;
+}
+
 Json load_json(const std::string& file) {
     namespace fs = std::filesystem;
     constexpr std::uintmax_t largest = 16u << 20;
@@ -53,35 +147,7 @@ Json load_json(const std::string& file) {
     if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
         fail("an empty file", "a JSON object", "the smallest complete deck is { \"test\": \"ucs\" }");
     }
-    std::vector<std::size_t> keys; // of the objects around, outermost first
-    auto guard = [&](int level, Json::parse_event_t event, Json&) {
-        if (level > 64) {
-            fail("more than 64 nested levels", "a flat JSON object");
-        }
-        if (event == Json::parse_event_t::key) { // looked up one by one: very many would take for ever
-            keys.resize(static_cast<std::size_t>(level), 0);
-            if (++keys.back() > 10000) {
-                fail("an object of more than 10000 keys", "a JSON file of a few kilobytes");
-            }
-        } else if (event == Json::parse_event_t::object_start) {
-            keys.resize(static_cast<std::size_t>(level));
-            keys.push_back(0);
-        }
-        return true;
-    };
-    Json json;
-    try {
-        json = Json::parse(text, guard);
-    } catch (const Json::exception& e) {
-        std::string what = e.what();
-        if (const auto at = what.find("] "); at != std::string::npos) {
-            what = what.substr(at + 2);
-        }
-        std::replace_if(
-            what.begin(), what.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
-        fail("text that is not JSON: " + what, "valid JSON",
-             text.find("NaN") != std::string::npos ? "JSON has no NaN; leave the key out to get its default" : "");
-    }
+    Json json = parse_json(text, file);
     if (!json.is_object()) {
         fail(std::string("a JSON ") + json.type_name(), "a JSON object");
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "lab/provenance.hpp"
 #include "lab/trials/decks.hpp"
 
 namespace proveta {
@@ -131,20 +132,37 @@ void check_target(const TargetInput& t, const std::string& at, const std::vector
     }
 }
 
+// A manifest is of a calibration to the curves that there were: others make another one.
+void check_curves(const CalibrationPlan& plan, const std::vector<std::string>& curves, input::Problems& problems) {
+    for (const auto& file : curves) {
+        const std::string then = input::text_at(plan.curves, file.c_str());
+        if (const std::string now = hash_of_file(file); !then.empty() && !now.empty() && now != then) {
+            problems.push_back(
+                {file, "", "another curve than the calibration began with, hash " + now, "that of hash " + then,
+                 fmt::format("to calibrate to this one: proveta calibrate {} --out FOLDER; the trials of the same folder are "
+                             "not carried out again",
+                             plan.source)});
+        }
+    }
+}
+
 } // namespace
 
 CalibrationPlan read_calibration(const std::string& file) {
     CalibrationPlan plan;
     plan.source = file;
     Json json = input::load_json(file);
-    std::string folder = file;
+    Json begun; // the manifest of a calibration that goes on, or is repeated
     if (json.is_object() && json.contains(manifest_mark)) {
-        folder = json.value("input_file", file);
-        json = json.value("input", Json::object());
+        begun = std::move(json);
+        json = begun.value("input", Json::object());
+        if (const std::string input = input::text_at(begun, "input_file"); !input.empty()) {
+            plan.source = input; // which names of files are relative to
+        }
     }
     plan.written = json;
     input::Problems problems;
-    plan.tests = take_tests(json, folder, problems);
+    plan.tests = take_tests(json, plan.source, problems, begun.is_object() ? begun.value("decks", Json()) : Json());
     input::read(json, plan.input, file, "", problems);
     auto& in = plan.input;
     std::vector<Json> decks;
@@ -157,13 +175,18 @@ CalibrationPlan read_calibration(const std::string& file) {
     if (!decks.empty()) {
         plan.space = ParameterSpace(in.parameters, decks, file, problems);
     }
+    std::vector<std::string> curves;
     for (std::size_t k = 0; k < in.targets.size(); ++k) {
         auto& t = in.targets[k];
         check_target(t, fmt::format("/targets/{}", k), plan.tests, file, problems);
         if (t.is_curve()) {
-            t.curve = (std::filesystem::absolute(folder).parent_path() / t.curve).lexically_normal().string();
+            t.curve = (std::filesystem::absolute(plan.source).parent_path() / t.curve).lexically_normal().string();
+            curves.push_back(t.curve);
         }
     }
+    plan.files = begun.is_object() ? begun.value("files", Json::object()) : hashes_of(plan.tests);
+    plan.curves = begun.is_object() ? begun.value("curves", Json::object()) : hashes_of(curves);
+    check_curves(plan, curves, problems);
     if (std::none_of(in.targets.begin(), in.targets.end(), [](const TargetInput& t) { return t.fitted(); })) {
         problems.push_back({file, "/targets", "nothing to fit", "at least one target with \"use\": \"fit\"", ""});
     }
@@ -178,6 +201,27 @@ CalibrationPlan read_calibration(const std::string& file) {
         throw input::InputError(problems);
     }
     return plan;
+}
+
+Json calibration_manifest(const CalibrationPlan& plan, const std::string& command, const std::string& status) {
+    Json input = plan.written;
+    input.erase("deck");
+    Json decks = Json::object();
+    for (std::size_t k = 0; k < plan.tests.size(); ++k) {
+        input["tests"][k]["deck"] = plan.tests[k].written; // without a file, which may change
+        decks[plan.tests[k].name] = plan.tests[k].deck;
+    }
+    return {{manifest_mark, 1},
+            {"status", status},
+            {"command", command},
+            {"version", version()},
+            {"compiler", PROVETA_COMPILER},
+            {"build", PROVETA_BUILD},
+            {"input_file", std::filesystem::absolute(plan.source).lexically_normal().string()},
+            {"files", plan.files},
+            {"curves", plan.curves},
+            {"input", input},
+            {"decks", decks}};
 }
 
 Json calibration_schema() {

@@ -94,11 +94,16 @@ struct CalibrationPlan {
     ParameterSpace space;
     input::Json written; ///< the file
     std::string source;  ///< its name
+    input::Json files;   ///< hashes of deck and card files, by name
+    input::Json curves;  ///< hashes of files of measured curves, by name
 };
 
 /// Reads calibration.json, or the manifest.json of an earlier calibration. Throws InputError with every problem: of the file, of the decks,
 /// and of the decks that the parameters make at their bounds.
 CalibrationPlan read_calibration(const std::string& file);
+
+/// manifest.json of a calibration: the input, the decks and the files that it began with. status: running, complete or interrupted.
+input::Json calibration_manifest(const CalibrationPlan& plan, const std::string& command, const std::string& status);
 
 /// JSON schema of the file.
 input::Json calibration_schema();

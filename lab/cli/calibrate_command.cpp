@@ -11,7 +11,7 @@
 #include "lab/calibrate/calibrate.hpp"
 #include "lab/calibrate/calibrate_report.hpp"
 #include "lab/cli/commands.hpp"
-#include "lab/provenance.hpp"
+#include "lab/output_folder.hpp"
 #include "lab/trials/launch.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
@@ -22,29 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using input::Json;
-
-// A folder of a calibration goes on where it was; any other must be new or empty.
-void claim(const fs::path& out) {
-    std::error_code error;
-    fs::create_directories(out, error);
-    if (error || (!fs::is_empty(out) && !fs::exists(out / "ledger.jsonl"))) {
-        throw input::InputError({{"--out", "", "\"" + out.string() + "\", " + (error ? error.message() : "which holds other files"),
-                                  "a new or empty folder, or that of a calibration to go on with", ""}});
-    }
-    // Of an earlier end: what is there now is no result of what runs.
-    for (const char* name : {"report.html", "summary.json", "trials.csv", "card.json"}) {
-        fs::remove(out / name);
-    }
-}
-
-void write_manifest(const fs::path& out, const CalibrationPlan& plan, const std::string& typed, const std::string& status) {
-    report::write_json((out / "manifest.json").string(), {{"proveta_calibration_manifest", 1},
-                                                          {"status", status},
-                                                          {"command", typed},
-                                                          {"version", version()},
-                                                          {"input_file", fs::absolute(plan.source).lexically_normal().string()},
-                                                          {"input", plan.written}});
-}
 
 Json state_of(const std::string& phase, const CalibrationOutcome& so_far, std::size_t known) {
     Json j{{"phase", phase}, {"trials_asked", so_far.trials.size()}, {"trials_in_ledger", known}};
@@ -111,32 +88,36 @@ void write_results(const fs::path& out, const CalibrationPlan& plan, const std::
 } // namespace
 
 int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
-    const fs::path out = a.out.empty() ? fs::path("results") / fs::path(a.file).stem() : fs::path(a.out);
+    const fs::path out = a.out.empty() ? fs::path("results") / result_name(a.file, "calibration") : fs::path(a.out);
     if (a.status) {
         return show_status(out);
     }
     use_threads(a.threads);
     const CalibrationPlan plan = read_calibration(a.file);
     const auto targets = make_targets(plan);
-    claim(out);
+    OutputFolder folder(out);
     catch_interrupts();
     TrialBook book(out, a.elsewhere() ? BookMode::plan : BookMode::run, static_cast<std::size_t>(omp_get_max_threads()), a.quiet);
-    write_manifest(out, plan, typed, "running");
+    folder.begin(); // once nobody else has the book; trials stay
+    const auto write_manifest = [&](const char* status) {
+        report::write_json(folder.file("manifest.json"), calibration_manifest(plan, typed, status));
+    };
+    write_manifest("running");
     if (book.known() > 0 && !a.quiet) {
         spdlog::info("{} trials are in the ledger and will not be repeated", book.known());
     }
+    const auto keep_state = [&](const std::string& phase, const CalibrationOutcome& so_far) {
+        report::write_json((out / "progress.json").string(), state_of(phase, so_far, book.known()));
+    };
     try {
-        const auto outcome = calibrate(plan, targets, book, [&](const std::string& phase, const CalibrationOutcome& so_far) {
-            report::write_json((out / "progress.json").string(), state_of(phase, so_far, book.known()));
-        });
-        write_results(out, plan, targets, outcome, book.folders());
-        write_manifest(out, plan, typed, "complete");
+        with_way_on(out, [&] { write_results(out, plan, targets, calibrate(plan, targets, book, keep_state), book.folders()); });
+        write_manifest("complete");
         return 0;
     } catch (const TrialsPlanned& planned) {
         fmt::print("{}", write_plan(out, planned.folders));
         return 0;
     } catch (const TrialsInterrupted&) {
-        write_manifest(out, plan, typed, "interrupted");
+        write_manifest("interrupted");
         spdlog::warn("interrupted; the same command goes on from {} trials", book.known());
         return exit_interrupted();
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lab/exit_codes.hpp"
 #include "lab/run.hpp"
 
 namespace proveta {
@@ -72,11 +73,7 @@ void use_threads(int threads);
 /// The exit code of a run that ended so.
 int exit_code(RunStatus status);
 
-/// Exit codes: the user's input, the calculation, the disk.
-constexpr int exit_input = 2;
-constexpr int exit_calculation = 3;
-constexpr int exit_files = 4;
-/// The exit code of work that a signal ended early, as shells have it: 130 for SIGINT, 143 for SIGTERM.
+/// The exit code of work that a signal ended early.
 int exit_interrupted();
 
 } // namespace proveta

@@ -1,12 +1,17 @@
 // proveta: a virtual materials laboratory.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "core/files/whole_file.hpp"
@@ -40,7 +45,7 @@ namespace {
         }
         std::fputs("error: the program ended itself\n", stderr);
     } catch (const std::bad_alloc&) {
-        std::fputs("error: not enough memory for this specimen; ask for fewer spheres\n", stderr);
+        std::fputs("error: not enough memory; ask for fewer spheres, or coarser surfaces\n", stderr);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "error: %s\n", e.what());
     } catch (...) {
@@ -60,10 +65,18 @@ int guarded(const proveta::Command& command) {
     } catch (const proveta::FileError& e) {
         spdlog::error("{}", e.what());
         return proveta::exit_files;
+    } catch (const std::filesystem::filesystem_error& e) {
+        spdlog::error("{}: {}", e.path1().string(), e.code().message());
+        return proveta::exit_files;
     } catch (const std::bad_alloc&) {
-        spdlog::error("not enough memory for this specimen; ask for fewer spheres");
+        spdlog::error("not enough memory; ask for fewer spheres, or coarser surfaces");
         return proveta::exit_calculation;
     } catch (const std::exception& e) {
+        constexpr int not_utf8 = 316; // nlohmann-json's number of it
+        if (const auto* json = dynamic_cast<const proveta::input::Json::type_error*>(&e); json != nullptr && json->id == not_utf8) {
+            spdlog::error("a text or a path is not UTF-8, which it has to be to be written down ({})", e.what());
+            return proveta::exit_input;
+        }
         spdlog::error("{}", e.what());
         return proveta::exit_calculation;
     }
@@ -71,7 +84,27 @@ int guarded(const proveta::Command& command) {
 
 } // namespace
 
+// A file opened where a standard stream was closed would take what is meant for that.
+void hold_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(stream, F_GETFD) < 0) {
+            (void)!open("/dev/null", O_RDWR); // takes the lowest number that is free
+        }
+    }
+}
+
+// What could not be printed is no success; a reader that has gone has seen enough.
+int with_all_printed(int code) {
+    errno = 0;
+    if ((std::fflush(stdout) != 0 || std::ferror(stdout) != 0) && errno != EPIPE && code == 0) {
+        spdlog::error("not all could be printed: {}", errno != 0 ? std::strerror(errno) : "the standard output cannot be written");
+        return proveta::exit_files;
+    }
+    return code;
+}
+
 int main(int argc, char** argv) {
+    hold_standard_streams();
     spdlog::set_default_logger(spdlog::stderr_color_mt("proveta"));
     spdlog::set_pattern("%^%l%$: %v");
 
@@ -116,5 +149,5 @@ int main(int argc, char** argv) {
         }
         return app.exit(e) == 0 ? 0 : proveta::exit_input;
     }
-    return guarded(chosen);
+    return with_all_printed(guarded(chosen));
 }

@@ -50,6 +50,10 @@ int go_on_with(const ResumeArguments& a, const std::string& typed, const input::
     for (const auto& change : changes_since(manifest)) {
         spdlog::warn("{}", change);
     }
+    if (status == "cleared" && passage == Passage::go_on) {
+        spdlog::warn("the run was stopped while it cleared an earlier result, which is calculated anew");
+        passage = Passage::begin;
+    }
     const RunOptions options{a.folder, typed, a.quiet, passage};
     if (scene) {
         const Scene read = read_scene(file, {});
@@ -78,6 +82,11 @@ int pass_through(const ResumeArguments& a, const std::string& typed, Passage pas
     const bool trialled = manifest.contains("proveta_sweep_manifest") || manifest.contains("proveta_calibration_manifest");
     if (trialled && passage == Passage::report && input::text_at(manifest, "status") != "complete") {
         refuse(a.folder, "one that has not ended", "a sweep or a calibration that is complete", "proveta resume goes on with it");
+    }
+    if (trialled) {
+        for (const auto& change : changes_since(manifest)) {
+            spdlog::warn("{}", change);
+        }
     }
     if (manifest.contains("proveta_sweep_manifest")) {
         return carry_out_sweep(trials, typed);

@@ -1,6 +1,8 @@
 // What the commands that run tests share.
 #include <omp.h>
 
+#include <csignal>
+
 #include "lab/cli/commands.hpp"
 #include "lab/progress.hpp"
 
@@ -39,7 +41,9 @@ void use_threads(int threads) {
     }
 }
 
-int exit_interrupted() { return 128 + interrupt_signal(); }
+int exit_interrupted() {
+    return exit_signal + (interrupt_signal() > 0 ? interrupt_signal() : SIGTERM); // without one, a process of ours was told to stop
+}
 
 int exit_code(RunStatus status) {
     switch (status) {

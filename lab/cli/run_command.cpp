@@ -7,6 +7,7 @@
 
 #include "lab/bench.hpp"
 #include "lab/cli/commands.hpp"
+#include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
 #include "lab/run.hpp"
 #include "lab/series/plan.hpp"
@@ -39,11 +40,10 @@ Plan prepare(const DeckArguments& a) {
 
 // Where a result goes that the user named no folder for: the deck's name, or its test's for a manifest.
 std::string default_folder(const DeckArguments& a, const Plan& plan) {
-    const auto stem = std::filesystem::path(a.decks.front()).stem().string();
     if (a.decks.size() > 1) {
         return "results/series";
     }
-    return "results/" + (stem != "manifest" ? stem : plan.series ? "series" : plan.members.front().deck.test);
+    return "results/" + result_name(a.decks.front(), plan.series ? "series" : plan.members.front().deck.test);
 }
 
 } // namespace

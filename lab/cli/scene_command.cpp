@@ -36,8 +36,7 @@ void add_scene(CLI::App& app, const std::string& typed, Command& chosen) {
                            scene.particles.size());
                 return 0;
             }
-            const auto stem = std::filesystem::path(a->file).stem().string();
-            const RunOptions options{a->out.empty() ? "results/" + (stem == "manifest" ? "scene" : stem) : a->out, typed, a->quiet};
+            const RunOptions options{a->out.empty() ? "results/" + result_name(a->file, "scene") : a->out, typed, a->quiet};
             catch_interrupts();
             return exit_code(run_scene(scene, options));
         };

@@ -22,7 +22,7 @@ int carry_out_study(const StudyArguments& a, const char* name, const std::string
     StudyRequest request = a.request;
     request.settings = a.settings;
     const Plan plan = plan_study(request);
-    const std::string stem = std::filesystem::path(a.request.deck).stem().string();
+    const std::string stem = result_name(a.request.deck, "test");
     const RunOptions options{a.out.empty() ? fmt::format("results/{}-{}-study", stem, name) : a.out, typed, a.quiet};
     catch_interrupts();
     return exit_code(run_series(plan, options, omp_get_max_threads(), study_of(plan)));

@@ -17,7 +17,7 @@ int carry_out_sweep(const TrialsArguments& a, const std::string& typed) {
     const Sweep sweep = read_sweep(a.file);
     SweepOptions options{a.out, typed, a.threads, a.quiet, a.elsewhere() ? BookMode::plan : BookMode::run};
     if (options.out.empty()) {
-        options.out = fmt::format("results/{}-sweep", std::filesystem::path(a.file).stem().string());
+        options.out = fmt::format("results/{}-sweep", result_name(a.file, "manifest"));
     }
     if (a.status) {
         fmt::print("{}", sweep_status(sweep, options.out));

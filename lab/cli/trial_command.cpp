@@ -55,7 +55,7 @@ int carry_out_trials(const TrialArguments& a) {
             throw input::InputError({{folders[k].string(), "", "no job \"" + a.job + "\"", "one of its trial.json", ""}});
         }
         for (const auto& name : a.job.empty() ? names : std::vector<std::string>{a.job}) {
-            if (!fs::exists(folders[k] / name / "result.json") && !run_job(folders[k] / name)) {
+            if (!result_in(folders[k] / name) && !run_job(folders[k] / name)) {
                 spdlog::warn("interrupted; the job has no result and will be done again");
                 return exit_interrupted();
             }

@@ -95,7 +95,7 @@ void Feed::pour(std::size_t number, double time, Room& room, Population& bodies,
     std::size_t& placed = counts_[number].placed;
     std::size_t due = kind.plan.size();
     if (p.rate.word.empty()) {
-        due = std::min(due, static_cast<std::size_t>(std::floor(p.rate.number * (time - p.begin))) + 1);
+        due = static_cast<std::size_t>(std::min(static_cast<double>(due), std::floor(p.rate.number * (time - p.begin)) + 1.0));
     }
     for (int left = tries; placed < due && left > 0; --left) {
         const PlannedParticle& next = kind.plan[placed];

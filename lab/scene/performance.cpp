@@ -107,7 +107,7 @@ void Performance::look() {
 }
 
 void Performance::write_fields() {
-    std::filesystem::create_directories(out_.path() / "fields");
+    make_folder(out_.file("fields"));
     const Model& m = play_.model();
     std::vector<std::pair<std::string, report::Geometry>> parts{{"particles", particle_fields(m)}, {"surfaces", surface_fields(m)}};
     if (!m.walls.bodies.empty()) {

@@ -117,12 +117,7 @@ RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder
 RunStatus run_scene(const Scene& scene, const RunOptions& options) {
     OutputFolder out(options.out);
     Progress progress(options.quiet);
-    try {
-        return play_scene(scene, options, out, progress);
-    } catch (const FileError& e) {
-        progress.end_line();
-        throw FileError(fmt::format("{}; once that is mended, go on with: proveta resume {}", e.what(), out.path().string()));
-    }
+    return with_way_on(out.path(), [&] { return play_scene(scene, options, out, progress); });
 }
 
 void try_scene(const Scene& scene) { ScenePlay play(scene); }

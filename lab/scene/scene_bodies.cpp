@@ -76,7 +76,7 @@ void declare(input::Visitor& v, BodyInput& b) {
               {"neo_hookean", "any strain (4.37-4.39)"},
               {"j2", "von Mises plasticity at any strain (4.40-4.42)"}},
              "constitutive law");
-    v.number("density", b.density, Unit::density, input::above(0), "without stress");
+    v.number("density", b.density, Unit::density, input::between(1e-3, 1e9), "without stress");
     v.number("young_modulus", b.young_modulus, Unit::pressure, input::above(0), "at small strain; contacts are reckoned with it too");
     v.number("poisson_ratio", b.poisson_ratio, Unit::none, {-1.0, 0.5, true, true}, "at small strain");
     if (v.wants_all() || b.law == "j2") {

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/boundaries/surface_shapes.hpp"
 #include "lab/scene/vectors.hpp"
+#include "specimens/memory.hpp"
 #include "specimens/surface_import.hpp"
 
 namespace proveta {
@@ -38,6 +40,44 @@ SurfaceMesh made(const SurfaceInput& s) {
                             s.ends == "top" || s.ends == "both", whole(s.rows));
 }
 
+// About how many faces that makes.
+double faces_of(const SurfaceInput& s) {
+    const auto sides = static_cast<double>(s.sides);
+    if (s.shape == "sphere") {
+        return 20.0 * std::pow(4.0, static_cast<double>(s.cuts));
+    }
+    if (s.shape == "helix") {
+        return 2.0 * sides * static_cast<double>(s.rings) * (s.pitch != 0.0 ? std::fabs(s.height / s.pitch) : 1.0);
+    }
+    return s.shape == "cylinder" ? sides * static_cast<double>(s.rows) : s.shape == "disc" ? sides : 6.0;
+}
+
+// Complains where the surfaces so far take more memory than there is, before they are made.
+bool fit(double faces, const Scene& scene, std::size_t k, input::Problems& problems) {
+    constexpr double bytes_a_face = 600.0; // measured on cylinders
+    const double most = static_cast<double>(available_memory()) / bytes_a_face;
+    if (faces <= most) {
+        return true;
+    }
+    problems.push_back({scene.source, fmt::format("/surfaces/{}", k), fmt::format("{:.3g} faces with those before", faces),
+                        fmt::format("at most {:.3g}, for which there is memory", most), "fewer sides, rows, rings or cuts"});
+    return false;
+}
+
+// Complains of a mesh that reaches so far that nothing can be calculated there.
+bool within_reach(const SurfaceMesh& mesh, const Scene& scene, std::size_t k, input::Problems& problems) {
+    constexpr double farthest = 1e12; // m
+    for (const auto& v : mesh.vertex) {
+        if (!(v.array().abs() <= farthest).all()) { // nor what is no number
+            problems.push_back({scene.source, fmt::format("/surfaces/{}", k),
+                                fmt::format("a corner at {:.4g} {:.4g} {:.4g} m", v.x(), v.y(), v.z()),
+                                fmt::format("corners within {:g} m", farthest), ""});
+            return false;
+        }
+    }
+    return true;
+}
+
 // Turns the mesh and puts it where it belongs, as its own frame sees it: about the pivot of its motion, which becomes the origin.
 Vec3 put_into_place(const SurfaceInput& s, SurfaceMesh& mesh) {
     const Eigen::Quaterniond turn = attitude(s.turned);
@@ -53,6 +93,7 @@ Vec3 put_into_place(const SurfaceInput& s, SurfaceMesh& mesh) {
 std::vector<Surface> make_surfaces(const Scene& scene, const std::vector<Material>& materials, std::vector<std::string>& notes) {
     std::vector<Surface> out;
     input::Problems problems;
+    double faces = 0.0;
     for (std::size_t k = 0; k < scene.surfaces.size(); ++k) {
         const SurfaceInput& s = scene.surfaces[k];
         SurfaceMesh mesh;
@@ -68,9 +109,16 @@ std::vector<Surface> make_surfaces(const Scene& scene, const std::vector<Materia
                 continue;
             }
         } else {
+            faces += faces_of(s);
+            if (!fit(faces, scene, k, problems)) {
+                break;
+            }
             mesh = made(s);
         }
         const Vec3 origin = put_into_place(s, mesh);
+        if (!within_reach(mesh, scene, k, problems)) {
+            continue;
+        }
         out.emplace_back(s.name, std::move(mesh), materials[static_cast<std::size_t>(scene.material(s.material))], s.friction);
         out.back().origin = origin;
     }

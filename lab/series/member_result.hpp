@@ -17,6 +17,7 @@ struct MemberResult {
     std::vector<report::Scalar> results;
     std::vector<report::Badge> badges;
     std::vector<std::string> warnings;
+    bool unwritten = false; ///< it failed because its files could not be written
     std::optional<MainCurve> curve;
 
     [[nodiscard]] bool complete() const { return status == "complete"; }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "lab/output_folder.hpp"
 #include "lab/provenance.hpp"
 #include "lab/series/expand.hpp"
 
@@ -37,7 +38,7 @@ std::vector<Candidate> members_of(const Json& manifest, const std::string& file,
     for (const auto& member : manifest["members"]) {
         const std::string name = input::text_at(member, "name");
         const std::string path = fmt::format("/members/{}", out.size());
-        if (name.empty() || name.front() == '.' || name.find_first_of("/\\") != std::string::npos) {
+        if (!is_member_name(name)) {
             fail(path + "/name", "\"" + name + "\"", "the name of a folder");
         }
         if (!member.contains("deck") || !member["deck"].is_object()) {
@@ -83,8 +84,7 @@ std::string name_of(const Candidate& c, const std::string& test, bool several_fi
     if (!c.name.empty()) {
         return c.deck.label.empty() ? c.name : c.name + "_" + c.deck.label;
     }
-    const std::string stem = std::filesystem::path(c.file).stem().string();
-    const std::string whose = stem == "manifest" ? test : stem;
+    const std::string whose = result_name(c.file, test);
     if (c.deck.label.empty()) {
         return whose;
     }

@@ -12,6 +12,7 @@
 #include <new>
 #include <thread>
 
+#include "core/files/whole_file.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 #include "lab/series/expand.hpp"
@@ -133,6 +134,11 @@ MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& f
         result.badges = std::move(finished.record.badges);
         result.warnings = std::move(finished.record.warnings);
         result.curve = std::move(finished.curve);
+    } catch (const StoppedBefore&) { // it stays one that was not run
+    } catch (const FileError& e) {
+        result.status = "failed";
+        result.stopped_by = e.what();
+        result.unwritten = true;
     } catch (const std::bad_alloc&) {
         result.status = "failed";
         result.stopped_by = "not enough memory";
@@ -173,8 +179,9 @@ std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specime
 
 } // namespace
 
-RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study) {
-    OutputFolder out(options.out);
+namespace {
+
+RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study, OutputFolder& out) {
     std::vector<std::unique_ptr<OutputFolder>> folders;
     for (const auto& member : plan.members) {
         folders.push_back(std::make_unique<OutputFolder>(out.path() / member.name));
@@ -205,7 +212,7 @@ RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, c
     }
     for (const auto& group : results.groups) {
         if (group.mean) {
-            std::filesystem::create_directories(out.path() / "mean_curves");
+            make_folder(out.file("mean_curves"));
             report::write_file(out.file(mean_curve_file(group)), report::to_csv(mean_curve_table(*group.mean, group.of->x, group.of->y)));
         }
     }
@@ -214,7 +221,19 @@ RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, c
     report::write_file(out.file("report.html"), report::to_html(record));
     write_manifest(results.status);
     fmt::print("{}results in {}\n", series_text(record, results), folder);
+    for (const auto& member : results.members) {
+        if (member.unwritten) {
+            throw FileError(member.member->name + ": " + member.stopped_by);
+        }
+    }
     return results.status == "interrupted" ? RunStatus::interrupted : results.status == "failed" ? RunStatus::failed : RunStatus::complete;
+}
+
+} // namespace
+
+RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study) {
+    OutputFolder out(options.out);
+    return with_way_on(out.path(), [&] { return carry_out_series(plan, options, threads, study, out); });
 }
 
 } // namespace proveta

@@ -29,6 +29,7 @@ Json manifest_of(const Sweep& sweep, const SweepOptions& options, const std::str
             {"written", now_utc()},
             {"to_repeat", "proveta sweep manifest.json --out NEW_FOLDER"},
             {"points", sweep.points.size()},
+            {"files", sweep.files},
             {"sweep", resolved(sweep)}};
 }
 
@@ -62,7 +63,9 @@ RunStatus run_sweep(const Sweep& sweep, const SweepOptions& options) {
     };
     write_manifest("running");
     try {
-        const RunStatus status = write_results(sweep, folder, book.folders(), book.evaluate(trials_of(sweep), sweep.input.title));
+        const RunStatus status = with_way_on(folder.path(), [&] {
+            return write_results(sweep, folder, book.folders(), book.evaluate(trials_of(sweep), sweep.input.title));
+        });
         write_manifest(status == RunStatus::failed ? "failed" : "complete");
         return status;
     } catch (const TrialsPlanned&) {

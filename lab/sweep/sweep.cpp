@@ -124,11 +124,14 @@ void declare(input::Visitor& v, SweepInput& s) {
 Sweep read_sweep(const std::string& file) {
     input::Problems problems;
     Json json = input::load_json(file);
+    Json begun_with;
     if (json.is_object() && json.contains("proveta_sweep_manifest")) {
+        begun_with = json.value("files", Json::object());
         json = json.value("sweep", Json());
     }
     Sweep sweep;
     sweep.tests = take_tests(json, file, problems);
+    sweep.files = begun_with.is_object() ? begun_with : hashes_of(sweep.tests);
     sweep.results = take_results(json, file, problems);
     input::read(json, sweep.input, file, "", problems);
     check_keys(sweep.input, file, problems);

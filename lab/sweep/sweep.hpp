@@ -30,6 +30,7 @@ struct Sweep {
     ParameterSpace space;
     std::vector<Point> points;               ///< in the unit cube
     std::vector<std::vector<double>> values; ///< own values of the parameters at the points
+    input::Json files;                       ///< hashes of the files that it was read from, by name
 
     [[nodiscard]] bool trajectories() const { return input.design == "morris"; }
 };

@@ -34,7 +34,6 @@ Json sweep_summary(const Sweep& sweep, const SweepOutcome& o, const report::Reco
     j["design"] = sweep.input.design;
     j["points"] = o.table.trials.size();
     j["failed"] = o.table.failed();
-    j["running_time_s"] = seconds_of(o.table);
     j["results"] = Json::array();
     for (std::size_t c = 0; c < o.table.results.size(); ++c) {
         const auto& column = o.table.results[c];

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <set>
 
+#include "core/files/whole_file.hpp"
 #include "lab/series/workers.hpp"
 #include "lab/trials/pool.hpp"
 #include "specimens/memory.hpp"
@@ -116,7 +117,7 @@ TrialBook::~TrialBook() { close(file_); }
 void TrialBook::record(const TrialResult& result) {
     const std::string line = to_json(result).dump() + "\n";
     if (write(file_, line.data(), line.size()) != static_cast<ssize_t>(line.size()) || fsync(file_) != 0) {
-        throw std::runtime_error(std::string("the ledger cannot be written: ") + std::strerror(errno));
+        throw FileError((folders_.out() / ledger_name).string() + " cannot be written: " + std::strerror(errno));
     }
     known_.insert_or_assign(result.key, result);
 }
@@ -196,16 +197,27 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
     progress_.end_line();
 }
 
+// A trial that has ended, and whose curves nobody has taken away.
+bool TrialBook::holds(const std::string& key) const {
+    const auto found = known_.find(key);
+    return found != known_.end() && std::all_of(found->second.jobs.begin(), found->second.jobs.end(), [&](const JobResult& job) {
+               return job.status != "complete" || fs::exists(folders_.trial(key) / job.name / "curve.csv");
+           });
+}
+
 std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const std::string& what) {
     std::vector<std::size_t> missing;
     std::set<std::string> asked;
     for (std::size_t k = 0; k < trials.size(); ++k) {
         trials[k] = keyed(std::move(trials[k]));
-        if (known_.contains(trials[k].key) || !asked.insert(trials[k].key).second) {
+        if (holds(trials[k].key) || !asked.insert(trials[k].key).second) {
             continue;
         }
         progress_.show(fmt::format("{}: making specimens", what));
-        folders_.write(trials[k]);
+        if (!folders_.write(trials[k])) {
+            progress_.end_line();
+            throw TrialsInterrupted();
+        }
         if (!complete(trials[k])) {
             missing.push_back(k);
         }

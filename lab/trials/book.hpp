@@ -64,6 +64,7 @@ class TrialBook {
   private:
     void record(const TrialResult& result);
     bool complete(const Trial& trial);
+    [[nodiscard]] bool holds(const std::string& key) const;
     void carry_out(const std::vector<Trial>& trials, const std::vector<std::size_t>& missing, const std::string& what);
 
     TrialFolders folders_;

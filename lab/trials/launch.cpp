@@ -19,7 +19,8 @@ constexpr const char* slurm_script = R"(#!/bin/bash
 #SBATCH --output=slurm-%A_%a.log
 #SBATCH --cpus-per-task=1
 set -e
-cd "${{PROVETA_FOLDER:-{folder}}}"
+folder={folder}
+cd "${{PROVETA_FOLDER:-$folder}}"
 trial=$(sed -n "${{SLURM_ARRAY_TASK_ID}}p" trials.txt)
 exec "${{PROVETA:-proveta}}" trial "$trial" --threads "${{SLURM_CPUS_PER_TASK:-1}}"
 )";
@@ -27,9 +28,19 @@ exec "${{PROVETA:-proveta}}" trial "$trial" --threads "${{SLURM_CPUS_PER_TASK:-1
 constexpr const char* mpi_script = R"(#!/bin/bash
 # Carries out the trials of trials.txt by N processes (default: one a processor): [N=64] ./mpi.sh [options of mpirun]
 set -e
-cd "${{PROVETA_FOLDER:-{folder}}}"
+folder={folder}
+cd "${{PROVETA_FOLDER:-$folder}}"
 exec mpirun -n "${{N:-$(nproc)}}" "$@" "${{PROVETA:-proveta}}" trial --list trials.txt --share --threads 1
 )";
+
+// A text as a shell's word: whatever is in it, it is nothing but text.
+std::string quoted_word(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) {
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return out + "'";
+}
 
 void write_script(const fs::path& file, const std::string& text) {
     report::write_file(file.string(), text);
@@ -44,7 +55,7 @@ std::string write_plan(const fs::path& out, const std::vector<std::string>& fold
         list += folder + "\n";
     }
     report::write_file((out / "trials.txt").string(), list);
-    const std::string here = fs::absolute(out).lexically_normal().string();
+    const std::string here = quoted_word(fs::absolute(out).lexically_normal().string());
     write_script(out / "slurm.sh", fmt::format(fmt::runtime(slurm_script), fmt::arg("last", folders.size()), fmt::arg("folder", here)));
     write_script(out / "mpi.sh", fmt::format(fmt::runtime(mpi_script), fmt::arg("folder", here)));
     return fmt::format("{} trials planned in {}/trials.txt; carry them out by\n"

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/files/whole_file.hpp"
+#include "lab/exit_codes.hpp"
 #include "lab/progress.hpp"
 
 namespace proveta {
@@ -53,6 +55,14 @@ pid_t start(const ProcessCommand& command) {
     _exit(127);
 }
 
+// Told to stop, and no failure of what it did.
+bool was_stopped(int status) {
+    if (WIFSIGNALED(status)) {
+        return WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM;
+    }
+    return WEXITSTATUS(status) == exit_signal + SIGINT || WEXITSTATUS(status) == exit_signal + SIGTERM;
+}
+
 std::string failure_of(int status) {
     if (WIFSIGNALED(status)) {
         return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
@@ -67,10 +77,19 @@ bool run_processes(const std::vector<ProcessCommand>& commands, std::size_t at_o
     std::map<pid_t, std::size_t> running;
     std::size_t next = 0;
     bool asked = false; // to stop
+    const auto stop = [&] {
+        for (const auto& [pid, k] : asked ? std::map<pid_t, std::size_t>() : running) {
+            kill(pid, SIGTERM);
+        }
+        asked = true;
+    };
     while (!running.empty() || (next < commands.size() && !asked)) {
         while (!asked && next < commands.size() && running.size() < std::max<std::size_t>(at_once, 1)) {
             running.emplace(start(commands[next]), next);
             ++next;
+        }
+        if (interrupted()) {
+            stop();
         }
         bool any = false;
         for (auto it = running.begin(); it != running.end();) {
@@ -82,14 +101,14 @@ bool run_processes(const std::vector<ProcessCommand>& commands, std::size_t at_o
             const std::size_t k = it->second;
             it = running.erase(it);
             any = true;
+            if (was_stopped(status)) {
+                stop();
+            }
+            if (WIFEXITED(status) && WEXITSTATUS(status) == exit_files) {
+                throw FileError("files of a test cannot be written; see " + commands[k].log);
+            }
             if (!asked) {
                 ended(k, failure_of(status));
-            }
-        }
-        if (interrupted() && !asked) {
-            asked = true;
-            for (const auto& [pid, k] : running) {
-                kill(pid, SIGTERM);
             }
         }
         if (!any) {

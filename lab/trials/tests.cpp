@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "lab/deck.hpp"
+#include "lab/output_folder.hpp"
+#include "lab/provenance.hpp"
 
 namespace proveta {
 
@@ -27,7 +29,7 @@ void keep(const input::InputError& error, const std::string& file, const std::st
 
 bool is_name(const std::string& name) {
     const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
-    return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
+    return is_member_name(name) && std::all_of(name.begin(), name.end(), good);
 }
 
 } // namespace
@@ -38,7 +40,7 @@ void declare(input::Visitor& v, TestKeys& k) {
     v.number("weight", k.weight, input::Unit::none, input::above(0), "weight of its targets in a calibration");
 }
 
-std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Problems& problems) {
+std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Problems& problems, const Json& decks_begun_with) {
     std::vector<TrialTest> out;
     const auto complain = [&](const std::string& path, const std::string& found, const std::string& expected,
                               const std::string& hint = "") {
@@ -73,7 +75,8 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
         TestKeys keys;
         input::read(rest, keys, file, at, problems);
         if (!is_name(keys.name)) {
-            complain(at + "/name", "\"" + keys.name + "\"", "a name of letters, digits, '_', '-' and '.'");
+            complain(at + "/name", "\"" + keys.name + "\"",
+                     "a name of at most 200 letters, digits, '_', '-' and '.', and of no file of the results");
         }
         if (std::any_of(out.begin(), out.end(), [&](const TrialTest& t) { return t.name == keys.name; })) {
             complain(at + "/name", "\"" + keys.name + "\" again", "a name of its own");
@@ -82,7 +85,7 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
             complain(at + "/deck", "nothing", "a deck, or the name of its file");
             continue;
         }
-        TrialTest test{keys.name, {}, common, {}, keys.weight};
+        TrialTest test{keys.name, {}, common, {}, keys.weight, {}};
         const bool own_file = tests[k]["deck"].is_string();
         try {
             std::string source = file;
@@ -96,7 +99,11 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
                 continue;
             }
             test.written.merge_patch(deck);
-            test.deck = resolved(read_deck(test.written, source));
+            const Json& begun =
+                decks_begun_with.is_object() && decks_begun_with.contains(keys.name) ? decks_begun_with[keys.name] : test.written;
+            const Deck read = read_deck(begun, source);
+            test.deck = resolved(read);
+            test.files = files_of(read);
         } catch (const input::InputError& error) {
             keep(error, file, at + "/deck", own_file, problems);
             continue;
@@ -109,6 +116,14 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
         out.push_back(std::move(test));
     }
     return out;
+}
+
+Json hashes_of(const std::vector<TrialTest>& tests) {
+    std::vector<std::string> files;
+    for (const auto& test : tests) {
+        files.insert(files.end(), test.files.begin(), test.files.end());
+    }
+    return hashes_of(files);
 }
 
 void add_tests_to_schema(Json& schema) {

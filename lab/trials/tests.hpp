@@ -15,6 +15,7 @@ struct TrialTest {
     input::Json written;             ///< as the user wrote it, merged over the common part
     std::vector<std::int64_t> seeds; ///< of its specimens; empty for a stored one
     double weight = 1.0;             ///< of its targets
+    std::vector<std::string> files;  ///< that it was read from
 };
 
 /// The keys of a test but its deck.
@@ -26,8 +27,13 @@ struct TestKeys {
 void declare(input::Visitor& v, TestKeys& keys);
 
 /// Takes "deck" (what all tests share) and "tests" out of the JSON of a sweep or a calibration and reads them. A test's "deck" is an object
-/// or the name of a file, relative to the file that is read. Appends what is wrong to `problems`.
-std::vector<TrialTest> take_tests(input::Json& json, const std::string& file, input::Problems& problems);
+/// or the name of a file, relative to the file that is read. decks_begun_with: resolved decks by the names of their tests, which count
+/// instead of what is written, for a calculation that goes on. Appends what is wrong to `problems`.
+std::vector<TrialTest> take_tests(input::Json& json, const std::string& file, input::Problems& problems,
+                                  const input::Json& decks_begun_with = {});
+
+/// Hashes of the files that tests were read from, by name.
+input::Json hashes_of(const std::vector<TrialTest>& tests);
 
 /// JSON schema of "deck" and "tests", to be added to that of what else is in the file.
 void add_tests_to_schema(input::Json& schema);

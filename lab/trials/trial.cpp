@@ -8,6 +8,7 @@
 #include <new>
 #include <sstream>
 
+#include "core/files/whole_file.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 #include "lab/results.hpp"
@@ -90,20 +91,25 @@ bool make(const Json& deck, const fs::path& file) {
     try {
         const Deck read = read_deck(deck, "deck");
         specimen = obtain_specimen(read.specimen, read.folder, read.source);
+    } catch (const FileError&) {
+        throw;
     } catch (const std::exception&) {
         return false;
     }
-    fs::create_directories(file.parent_path());
+    make_folder(file.parent_path().string());
     save_specimen(*specimen, file.string());
     return true;
 }
 
 } // namespace
 
-void TrialFolders::write(const Trial& t) const {
+bool TrialFolders::write(const Trial& t) const {
     const fs::path folder = trial(t.key);
     Json list = Json::array();
     for (const auto& job : t.jobs) {
+        if (interrupted()) {
+            return false;
+        }
         Json deck = job.deck;
         if (made(deck)) {
             const std::string name = specimen_key(deck) + ".h5";
@@ -112,11 +118,12 @@ void TrialFolders::write(const Trial& t) const {
                 deck["specimen"] = {{"file", "../../../specimens/" + name}};
             }
         }
-        fs::create_directories(folder / job.name);
+        make_folder((folder / job.name).string());
         report::write_json((folder / job.name / "deck.json").string(), deck);
         list.push_back({{"job", job.name}, {"test", job.test}});
     }
     report::write_json((folder / "trial.json").string(), {{"proveta_trial", 1}, {"values", t.values}, {"jobs", list}});
+    return true;
 }
 
 std::vector<std::string> jobs_of(const fs::path& trial) {
@@ -131,16 +138,24 @@ std::vector<std::string> jobs_of(const fs::path& trial) {
     return out;
 }
 
+std::optional<JobResult> result_in(const fs::path& job) {
+    std::ifstream in(job / "result.json");
+    const Json json = in ? Json::parse(in, nullptr, false) : Json();
+    if (!json.is_object()) {
+        return std::nullopt;
+    }
+    const JobResult result = job_result(json);
+    return result.status == "complete" && !fs::exists(job / "curve.csv") ? std::nullopt : std::optional(result);
+}
+
 std::vector<JobResult> TrialFolders::finished(const std::string& key) const {
     std::vector<JobResult> out;
     if (!fs::exists(trial(key) / "trial.json")) {
         return out;
     }
     for (const auto& name : jobs_of(trial(key))) {
-        std::ifstream in(trial(key) / name / "result.json");
-        const Json json = in ? Json::parse(in, nullptr, false) : Json();
-        if (json.is_object()) {
-            out.push_back(job_result(json));
+        if (auto result = result_in(trial(key) / name)) {
+            out.push_back(std::move(*result));
         }
     }
     return out;
@@ -174,6 +189,8 @@ bool run_job(const fs::path& folder) {
     const auto start = std::chrono::steady_clock::now();
     try {
         run(folder, result);
+    } catch (const FileError&) {
+        throw; // of the machine and not of the test, which can be done again
     } catch (const std::bad_alloc&) {
         result.status = "failed";
         result.reason = "not enough memory";

@@ -66,14 +66,18 @@ class TrialFolders {
     [[nodiscard]] const std::filesystem::path& out() const { return out_; }
 
     /// Writes the folder of a trial, and the specimens it needs that are not there yet. Deck and specimen are checked against each other
-    /// only when the job runs; a specimen that cannot be made is left to the job too, whose result says why.
-    void write(const Trial& trial) const;
+    /// only when the job runs; a specimen that cannot be made is left to the job too, whose result says why. Returns false on an
+    /// interrupt, which leaves it unfinished.
+    [[nodiscard]] bool write(const Trial& trial) const;
     /// The jobs of a trial that are done, in its order.
     [[nodiscard]] std::vector<JobResult> finished(const std::string& key) const;
 
   private:
     std::filesystem::path out_;
 };
+
+/// The result of a job's folder; nothing where there is none, or one without its curve. Throws Json::exception for a file of another kind.
+std::optional<JobResult> result_in(const std::filesystem::path& job);
 
 /// Carries out one job of a trial's folder, whatever went before, and writes its result. What fails is a result too. Returns false on an
 /// interrupt, which leaves none.

@@ -19,6 +19,31 @@ bool has(const input::Problems& problems, const std::string& path) {
 
 } // namespace
 
+TEST_CASE("JSON: keys that stand twice, each at its place, and levels without end") {
+    const auto problems_of = [](const std::string& text) {
+        try {
+            (void)input::parse_json(text, "a.json");
+        } catch (const input::InputError& e) {
+            return e.problems;
+        }
+        return input::Problems();
+    };
+    CHECK(problems_of(R"({"a": [{"b": 1}, {"b": 2}], "b": {"a": 1}})").empty());
+    const auto twice = problems_of(R"({"a": 1, "list": [0, [], {"b": 1, "c": {}, "b": 2}], "a": {"d": 0, "d": 0}})");
+    REQUIRE(twice.size() == 3);
+    CHECK(twice[0].path == "/list/2/b");
+    CHECK(twice[1].path == "/a");
+    CHECK(twice[2].path == "/a/d");
+    const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+    CHECK_THAT(problems_of(deep).at(0).found, Catch::Contains("64 nested levels"));
+    input::Json deck = {{"test", "ucs"}};
+    CHECK_THROWS_AS(apply_settings(deck, {"title=" + deep}), input::InputError);
+    CHECK_THROWS_AS(apply_settings(deck, {"title=\xff"}), input::InputError);
+    CHECK_THROWS_AS(apply_settings(deck, {R"(loading={"rate": 1, "rate": 2})"}), input::InputError);
+    apply_settings(deck, {"title=[draft] 1"});
+    CHECK(deck["title"] == "[draft] 1");
+}
+
 TEST_CASE("the smallest deck is complete and gets every default") {
     const Deck deck = read_deck(Json::parse(R"({"test": "ucs"})"), "deck.json");
     CHECK(deck.specimen.spheres == 13500);

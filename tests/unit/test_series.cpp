@@ -211,14 +211,68 @@ TEST_CASE("a folder gives up the members of the series that it held, and nothing
     const fs::path folder = decks.path() / "out";
     fs::create_directories(folder / "p_1MPa");
     fs::create_directories(folder / "mine");
-    std::ofstream(folder / "p_1MPa" / "manifest.json") << "{}";
+    std::ofstream(folder / "p_1MPa" / "manifest.json") << R"({"proveta_manifest": 1})";
     std::ofstream(folder / "mine" / "notes.txt") << "x";
     std::ofstream(folder / "manifest.json")
-        << R"({"proveta_series_manifest": 1, "members": [{"name": "p_1MPa"}, {"name": "mine"}, {"name": "../out/mine"}, 3]})";
+        << R"({"proveta_series_manifest": 1, "members": [{"name": "p_1MPa"}, {"name": "mine"}, {"name": "../out/mine"}, {"name": ".."}, {"name": "."}, 3]})";
+    std::ofstream(decks.path() / "manifest.json") << R"({"proveta_manifest": 1})"; // around it, and none of its members
     OutputFolder out(folder);
     CHECK(fs::exists(folder / "p_1MPa"));
     out.begin();
     CHECK_FALSE(fs::exists(folder / "p_1MPa"));
     CHECK_FALSE(fs::exists(folder / "manifest.json"));
     CHECK(fs::exists(folder / "mine" / "notes.txt"));
+    CHECK(fs::exists(decks.path() / "manifest.json"));
+}
+
+TEST_CASE("a folder is an earlier result by its own manifest or ledger, and by nothing else") {
+    const TemporaryFolder place;
+    const auto usable = [&](const char* name, const char* file, const std::string& text) {
+        fs::create_directories(place.path() / name);
+        std::ofstream(place.path() / name / file) << text;
+        try {
+            const OutputFolder out(place.path() / name);
+            return true;
+        } catch (const input::InputError&) {
+            return false;
+        }
+    };
+    CHECK_FALSE(usable("app", "manifest.json", R"({"name": "my web app"})"));
+    CHECK_FALSE(usable("list", "manifest.json", "[1, 2]"));
+    CHECK_FALSE(usable("text", "ledger.jsonl", "Some other ledger\n"));
+    CHECK(usable("run", "manifest.json", R"({"proveta_manifest": 1})"));
+    CHECK(usable("sweep", "manifest.json", R"({"proveta_sweep_manifest": 1})"));
+    CHECK(usable("trials", "ledger.jsonl", R"({"jobs":[],"trial":"a","values":[]})"));
+    CHECK(usable("begun", "ledger.jsonl", ""));
+    CHECK(usable("killed", "manifest.json.partial", "{"));
+}
+
+TEST_CASE("a folder that is not begun goes, but not what others have put there") {
+    const TemporaryFolder place;
+    {
+        const OutputFolder out(place.path() / "a" / "b" / "c");
+        CHECK(fs::exists(place.path() / "a" / "b" / "c"));
+    }
+    CHECK_FALSE(fs::exists(place.path() / "a"));
+    {
+        const OutputFolder out(place.path() / "a" / "b" / "c");
+        std::ofstream(place.path() / "a" / "thesis.txt") << "x";
+    }
+    CHECK(fs::exists(place.path() / "a" / "thesis.txt"));
+    CHECK_FALSE(fs::exists(place.path() / "a" / "b"));
+}
+
+TEST_CASE("names of members are names of folders that are none of the results' own files") {
+    for (const char* good : {"p_1MPa", "ucs", "a b", "1"}) {
+        CHECK(is_member_name(good));
+    }
+    for (const std::string bad : {"", ".", "..", ".hidden", "a/b", "/a", "report.html", "manifest.json", "fields", "trials"}) {
+        INFO(bad);
+        CHECK_FALSE(is_member_name(bad));
+    }
+    CHECK_FALSE(is_member_name(std::string(300, 'x')));
+    CHECK(result_name("some/where/my.deck.json", "ucs") == "my.deck");
+    CHECK(result_name("...json", "ucs") == "ucs");
+    CHECK(result_name("manifest.json", "ucs") == "ucs");
+    CHECK(result_name("report.html.json", "ucs") == "ucs");
 }

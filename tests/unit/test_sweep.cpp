@@ -321,7 +321,7 @@ TEST_CASE("a trial whose specimen cannot be made fails with the reason, and by i
     Trial trial = trials_of(sweep).front();
     trial.jobs[0].deck["specimen"]["spheres"] = -5; // as no bound of a parameter has shown
     const TrialFolders folders(folder.path());
-    folders.write(trial);
+    REQUIRE(folders.write(trial));
     REQUIRE(run_job(folders.trial(trial.key) / "press_seed_1"));
     const auto done = folders.finished(trial.key);
     REQUIRE(done.size() == 1);
