@@ -53,7 +53,7 @@ double faces_of(const SurfaceInput& s) {
 }
 
 // Complains where the surfaces so far take more memory than there is, before they are made.
-bool fit(double faces, const Scene& scene, std::size_t k, input::Problems& problems) {
+bool have_room(double faces, const Scene& scene, std::size_t k, input::Problems& problems) {
     constexpr double bytes_a_face = 600.0; // measured on cylinders
     const double most = static_cast<double>(available_memory()) / bytes_a_face;
     if (faces <= most) {
@@ -110,7 +110,7 @@ std::vector<Surface> make_surfaces(const Scene& scene, const std::vector<Materia
             }
         } else {
             faces += faces_of(s);
-            if (!fit(faces, scene, k, problems)) {
+            if (!have_room(faces, scene, k, problems)) {
                 break;
             }
             mesh = made(s);
