@@ -48,16 +48,27 @@ constexpr std::array result_files{"report.html",
                                   "sensitivity.csv",
                                   "curve_sensitivity.csv",
                                   "trials.csv",
+                                  "trials.txt",
+                                  "slurm.sh",
+                                  "mpi.sh",
                                   "card.json",
                                   "progress.json"};
 
+bool is_own(const std::string& name) {
+    return name == "manifest.json" || std::find(result_files.begin(), result_files.end(), name) != result_files.end();
+}
+
 bool is_half(const fs::path& file) { return file.extension() == ".partial" || file.extension() == ".next"; }
 
-// Nothing, or what a process left that was killed while it wrote its very first file.
-bool holds_halves_only(const fs::path& folder) {
+// Nothing, or what a process left that was killed while it wrote its very first file or made folders for members.
+bool holds_nothing(const fs::path& folder) {
     std::error_code error;
     const fs::directory_iterator entries(folder, error);
-    return std::all_of(begin(entries), end(entries), [](const auto& entry) { return is_half(entry.path()); });
+    return std::all_of(begin(entries), end(entries), [](const auto& entry) {
+        std::error_code unseen;
+        return entry.is_directory(unseen) ? fs::is_empty(entry.path(), unseen)
+                                          : is_half(entry.path()) && is_own(entry.path().stem().string());
+    });
 }
 
 // The manifest of an earlier result; no object where there is none, or one of another program.
@@ -74,10 +85,20 @@ input::Json own_manifest(const fs::path& folder) {
     return {};
 }
 
+// A ledger of trials; one without any is ours where there is nothing but it and what trials need.
 bool holds_ledger(const fs::path& folder) {
+    const std::string start = "{\"jobs\":[";
+    std::string found(start.size(), '\0');
     std::ifstream in(folder / "ledger.jsonl");
-    std::string start(9, '\0'); // of a line of trials; a ledger without any may be empty
-    return in && (!in.read(start.data(), 9) || start == "{\"jobs\":[" || start.starts_with("{\"trial\":"));
+    if (!in || in.read(found.data(), static_cast<std::streamsize>(start.size()))) {
+        return static_cast<bool>(in) && found == start;
+    }
+    std::error_code error;
+    const fs::directory_iterator entries(folder, error);
+    return in.gcount() == 0 && std::all_of(begin(entries), end(entries), [](const auto& entry) {
+               const auto name = entry.path().filename();
+               return name == "ledger.jsonl" || name == "trials" || name == "specimens";
+           });
 }
 
 // Folders that an earlier series made for its members.
@@ -103,13 +124,23 @@ void clear(const fs::path& path) {
     }
 }
 
+// A folder of results, its manifest last: until then it says whose the folder is.
+void clear_member(const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path().filename() != "manifest.json") {
+            clear(entry.path());
+        }
+    }
+    clear(folder);
+}
+
 // What a process that was killed did not finish writing.
 void remove_halves(const fs::path& folder) {
     std::vector<fs::path> halves;
     for (const auto& part : {folder, folder / "fields", folder / "pictures"}) {
         std::error_code error;
         for (const auto& entry : fs::directory_iterator(part, error)) {
-            if (is_half(entry.path())) {
+            if (is_half(entry.path()) && (part != folder || is_own(entry.path().stem().string()))) {
                 halves.push_back(entry.path());
             }
         }
@@ -125,8 +156,7 @@ void remove_halves(const fs::path& folder) {
 bool is_member_name(const std::string& name) {
     constexpr std::size_t longest = 200; // bytes; file systems take 255, and endings come to it
     return !name.empty() && name.size() <= longest && name.front() != '.' && name.find_first_of("/\\") == std::string::npos &&
-           name != "manifest.json" && name != "ledger.jsonl" && name != "trials" && name != "specimens" &&
-           std::find(result_files.begin(), result_files.end(), name) == result_files.end();
+           !is_own(name) && name != "ledger.jsonl" && name != "trials" && name != "specimens";
 }
 
 std::string result_name(const fs::path& file, const std::string& otherwise) {
@@ -140,9 +170,8 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
         throw input::InputError({{"--out", "", "\"" + path.string() + "\", " + found, expected, ""}});
     };
     std::error_code error;
-    for (fs::path p = fs::absolute(path).lexically_normal(); !p.empty() && !fs::exists(p, error) && p != p.root_path();
-         p = p.parent_path()) {
-        if (p.has_filename()) { // else it ends in a slash
+    for (fs::path p = fs::absolute(path); p != p.root_path() && !fs::exists(fs::symlink_status(p, error)); p = p.parent_path()) {
+        if (const auto name = p.filename(); !name.empty() && name != "." && name != "..") { // else it ends in a slash, or comes back
             made_.push_back(p);
         }
     }
@@ -156,7 +185,7 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     if (access(path.c_str(), W_OK | X_OK) != 0) {
         refuse("which cannot be written", "a folder that can be written");
     }
-    if (!holds_halves_only(path) && !own_manifest(path).is_object() && !holds_ledger(path)) {
+    if (!holds_nothing(path) && !own_manifest(path).is_object() && !holds_ledger(path)) {
         refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
     }
     lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -192,13 +221,10 @@ void OutputFolder::begin() {
         report::write_json(file("manifest.json"), manifest);
     }
     for (const auto& member : members_in(path_, manifest)) {
-        clear(member);
+        clear_member(member);
     }
     for (const char* name : result_files) {
         clear(path_ / name);
-    }
-    if (manifest.is_object()) { // the last: until then it says whose the folder is
-        clear(path_ / "manifest.json");
     }
     make_folder(path_.string()); // a series that was cleared may have held it
     remove_halves(path_);

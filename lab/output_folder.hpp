@@ -27,7 +27,7 @@ class OutputFolder {
     OutputFolder& operator=(const OutputFolder&) = delete;
 
     /// Clears an earlier result, a series with its members, and keeps the folder. Trials and their ledger stay: they answer only the
-    /// question that they were asked.
+    /// question that they were asked. An earlier manifest stays with the status "cleared", until another one is written.
     void begin();
     /// Keeps the folder with all that an unfinished result has left there but halves of files.
     void go_on();

@@ -150,7 +150,9 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
         sheet["status"] = status;
         report::write_json(out.file("manifest.json"), sheet);
     };
-    write_manifest("running");
+    if (passage != Passage::report) { // which changes nothing before it has succeeded
+        write_manifest("running");
+    }
 
     FieldSeries series(out);
     double before = 0.0; // seconds of loading in earlier processes

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cctype>
 #include <stdexcept>
@@ -19,18 +18,26 @@ using solid_files::shown;
 using solid_files::space;
 using solid_files::text_of;
 
-// Bytes of a number in a binary file, and whether it is a real one.
+// How a number stands in a binary file.
 struct NumberType {
     std::size_t bytes;
-    bool real;
+    enum { whole, positive, real } kind;
 };
-const std::map<std::string, NumberType> number_types{{"FLOAT", {4, true}},     {"DOUBLE", {8, true}},        {"INT", {4, false}},
-                                                     {"LONG", {8, false}},     {"VTKTYPEINT32", {4, false}}, {"VTKTYPEINT64", {8, false}},
-                                                     {"VTKIDTYPE", {4, false}}}; // the last is written as int
-
-// Where passing over ends.
-constexpr std::array<std::string_view, 9> sections{"POINTS",   "CELLS",           "CELL_TYPES", "VERTICES", "LINES",
-                                                   "POLYGONS", "TRIANGLE_STRIPS", "POINT_DATA", "CELL_DATA"};
+const std::map<std::string, NumberType> number_types{{"FLOAT", {4, NumberType::real}},
+                                                     {"DOUBLE", {8, NumberType::real}},
+                                                     {"CHAR", {1, NumberType::whole}},
+                                                     {"SIGNED_CHAR", {1, NumberType::whole}},
+                                                     {"SHORT", {2, NumberType::whole}},
+                                                     {"INT", {4, NumberType::whole}},
+                                                     {"LONG", {8, NumberType::whole}},
+                                                     {"VTKTYPEINT32", {4, NumberType::whole}},
+                                                     {"VTKTYPEINT64", {8, NumberType::whole}},
+                                                     {"VTKIDTYPE", {4, NumberType::whole}}, // which is written as int
+                                                     {"UNSIGNED_CHAR", {1, NumberType::positive}},
+                                                     {"UNSIGNED_SHORT", {2, NumberType::positive}},
+                                                     {"UNSIGNED_INT", {4, NumberType::positive}},
+                                                     {"UNSIGNED_LONG", {8, NumberType::positive}},
+                                                     {"VTKTYPEUINT64", {8, NumberType::positive}}};
 
 std::string in_capitals(std::string_view text) {
     std::string out(text);
@@ -59,8 +66,10 @@ class LegacyReader {
                        section == "TRIANGLE_STRIPS") {
                 once(section);
                 read_cells(section);
-            } else if (section == "FIELD" || section == "METADATA") {
-                pass_over();
+            } else if (section == "FIELD") {
+                pass_over_field();
+            } else if (section == "METADATA") {
+                pass_over_metadata();
             } else {
                 at_ = before;
                 fail(fmt::format("a section, such as POINTS or CELLS, is expected and {} was found", shown(word())));
@@ -111,6 +120,12 @@ class LegacyReader {
         at_ = std::min(text_.find_first_of(space, from), text_.size());
         return std::string_view(text_).substr(from, at_ - from);
     }
+    [[nodiscard]] bool begins_with(const char* expected) {
+        const std::size_t here = at_;
+        const std::string found = in_capitals(word());
+        at_ = here;
+        return found == expected;
+    }
     void next_line() { at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1; }
 
     void once(const std::string& section) {
@@ -119,15 +134,65 @@ class LegacyReader {
         }
         seen_.push_back(section);
     }
-    // Up to the next line that begins with the name of a section: fields and what is told about arrays are of no use here.
-    void pass_over() {
-        for (next_line(); at_ < text_.size(); next_line()) {
-            const auto words =
-                solid_files::words_of(std::string_view(text_).substr(at_, std::min(text_.find('\n', at_), text_.size()) - at_));
-            const std::string first = words.empty() ? "" : in_capitals(words.front());
-            if (std::find(sections.begin(), sections.end(), first) != sections.end()) {
-                return;
+    // What is told about an array, up to a line without text.
+    void pass_over_metadata() {
+        for (next_line(); at_ < text_.size() && text_.find_first_not_of(" \t\r", at_) != text_.find('\n', at_); next_line()) {
+        }
+    }
+    // Arrays that belong to the whole: no part of a mesh, whatever they are called.
+    void pass_over_field() {
+        (void)word();
+        for (std::size_t left = count("FIELD"); left > 0;) {
+            const std::string name(word());
+            if (name == "METADATA") {
+                pass_over_metadata();
+                continue;
             }
+            const std::size_t components = count(name);
+            const std::size_t tuples = count(name);
+            if (components > 0 && tuples > text_.size() / components) {
+                fail(fmt::format("{}: more values than the file can hold", shown(name)));
+            }
+            const std::size_t values = components * tuples;
+            const std::string_view type = word();
+            if (in_capitals(type) == "STRING") {
+                pass_over_texts(values);
+            } else if (in_capitals(type) == "BIT" && binary_) {
+                next_line();
+                pass_over_bytes((values + 7) / 8);
+            } else if (in_capitals(type) == "BIT") {
+                numbers<double>(values, {1, NumberType::whole}, name, [](double) {});
+            } else if (const auto found = number_types.find(in_capitals(type)); found != number_types.end()) {
+                numbers<double>(values, found->second, name, [](double) {});
+            } else {
+                fail(fmt::format("{}: an array of type {}, which is not known", shown(name), shown(type)));
+            }
+            --left;
+        }
+    }
+    void pass_over_bytes(std::size_t bytes) {
+        if (bytes > text_.size() - at_) {
+            fail("the file ends in FIELD");
+        }
+        at_ += bytes;
+    }
+    // Texts: a line each; in a binary file behind their lengths, whose own length is told by two bits.
+    void pass_over_texts(std::size_t n) {
+        next_line();
+        for (std::size_t k = 0; k < n; ++k) {
+            if (!binary_) {
+                next_line();
+                continue;
+            }
+            pass_over_bytes(1);
+            const auto first = static_cast<unsigned char>(text_[--at_]);
+            const std::size_t bytes = std::size_t{8} >> (first >> 6U);
+            pass_over_bytes(bytes);
+            std::uint64_t length = first & 63U;
+            for (std::size_t b = at_ - bytes + 1; b < at_; ++b) {
+                length = length << 8U | static_cast<unsigned char>(text_[b]);
+            }
+            pass_over_bytes(length);
         }
     }
 
@@ -147,7 +212,7 @@ class LegacyReader {
     NumberType number_type(const std::string& what, bool may_be_real) {
         const std::string_view name = word();
         const auto found = number_types.find(in_capitals(name));
-        if (found == number_types.end() || (found->second.real && !may_be_real)) {
+        if (found == number_types.end() || (found->second.kind == NumberType::real && !may_be_real)) {
             fail(fmt::format("{}: {} are expected and the type is {}", what, may_be_real ? "numbers" : "whole numbers", shown(name)));
         }
         return found->second;
@@ -177,8 +242,12 @@ class LegacyReader {
         for (std::size_t k = 0; k < type.bytes; ++k) {
             bits = bits << 8U | static_cast<unsigned char>(text_[at_++]);
         }
-        if (!type.real) {
-            return static_cast<Number>(type.bytes == 4 ? static_cast<std::int32_t>(bits) : static_cast<std::int64_t>(bits));
+        if (type.kind == NumberType::positive) {
+            return static_cast<Number>(bits);
+        }
+        if (type.kind == NumberType::whole) {
+            const std::size_t above = 64 - 8 * type.bytes;
+            return static_cast<Number>(static_cast<std::int64_t>(bits << above) >> above); // with its sign
         }
         if (type.bytes == 4) {
             return static_cast<Number>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
@@ -202,14 +271,17 @@ class LegacyReader {
             out_.point.emplace_back(values[3 * k], values[3 * k + 1], values[3 * k + 2]);
         }
     }
-    void read_types() { out_.type = whole_numbers(count("CELL_TYPES"), {4, false}, "CELL_TYPES"); }
+    void read_types() { out_.type = whole_numbers(count("CELL_TYPES"), {4, NumberType::whole}, "CELL_TYPES"); }
 
     void read_cells(const std::string& section) {
         const std::size_t n = count(section); // since version 5 the number of offsets, one more than cells
         const std::size_t size = count(section);
         Numbers& out = numbers_[section];
+        if (n == 0 && size == 0 && !begins_with("OFFSETS")) {
+            return;
+        }
         if (lists_) {
-            split_lists(section, n, whole_numbers(size, {4, false}, section), out);
+            split_lists(section, n, whole_numbers(size, {4, NumberType::whole}, section), out);
             return;
         }
         out.offset = read_array("OFFSETS", n);

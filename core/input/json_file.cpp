@@ -78,6 +78,14 @@ class ParseGuard {
     [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
         throw InputError({{source_, "", found, expected, ""}});
     }
+    // Of the last key; no longer than can be shown.
+    [[nodiscard]] std::string path() const {
+        std::string out;
+        for (const auto& a : around_) {
+            out += "/" + (a.list ? std::to_string(a.entries - 1) : a.key.substr(0, 100));
+        }
+        return out;
+    }
     void count() {
         if (!around_.empty() && around_.back().list) {
             ++around_.back().entries;
@@ -87,12 +95,11 @@ class ParseGuard {
         Around& object = around_.back();
         object.key = name;
         if (!object.keys.insert(name).second) {
-            std::string path;
-            for (const auto& a : around_) {
-                path += "/" + (a.list ? std::to_string(a.entries - 1) : a.key);
-            }
             twice_.push_back(
-                {source_, path, "the key a second time", "each key of an object once", "the last would count and the others not"});
+                {source_, path(), "the key a second time", "each key of an object once", "the last would count and the others not"});
+            if (twice_.size() >= 50) { // enough to see what is wrong
+                end();
+            }
         }
         if (object.keys.size() > 10000) { // looked up one by one: very many would take for ever
             fail("an object of more than 10000 keys", "a JSON file of a few kilobytes");

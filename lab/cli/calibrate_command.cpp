@@ -114,6 +114,7 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
         write_manifest("complete");
         return 0;
     } catch (const TrialsPlanned& planned) {
+        write_manifest("planned");
         fmt::print("{}", write_plan(out, planned.folders));
         return 0;
     } catch (const TrialsInterrupted&) {

@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <system_error>
 
 #include "core/files/whole_file.hpp"
 #include "core/input/json.hpp"
@@ -68,6 +69,12 @@ int guarded(const proveta::Command& command) {
     } catch (const std::filesystem::filesystem_error& e) {
         spdlog::error("{}: {}", e.path1().string(), e.code().message());
         return proveta::exit_files;
+    } catch (const std::system_error& e) { // of what is printed
+        if (e.code().value() == EPIPE) {
+            return 0; // a reader that has gone has seen enough
+        }
+        spdlog::error("not all could be printed: {}", e.code().message());
+        return proveta::exit_files;
     } catch (const std::bad_alloc&) {
         spdlog::error("not enough memory; ask for fewer spheres, or coarser surfaces");
         return proveta::exit_calculation;
@@ -81,8 +88,6 @@ int guarded(const proveta::Command& command) {
         return proveta::exit_calculation;
     }
 }
-
-} // namespace
 
 // A file opened where a standard stream was closed would take what is meant for that.
 void hold_standard_streams() {
@@ -102,6 +107,8 @@ int with_all_printed(int code) {
     }
     return code;
 }
+
+} // namespace
 
 int main(int argc, char** argv) {
     hold_standard_streams();

@@ -42,7 +42,7 @@ void use_threads(int threads) {
 }
 
 int exit_interrupted() {
-    return exit_signal + (interrupt_signal() > 0 ? interrupt_signal() : SIGTERM); // without one, a process of ours was told to stop
+    return exit_signal + (interrupted() ? interrupt_signal() : SIGTERM); // else a process of ours was told to stop
 }
 
 int exit_code(RunStatus status) {

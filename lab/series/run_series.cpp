@@ -20,6 +20,7 @@
 #include "lab/series/workers.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
+#include "specimens/checkpoint.hpp"
 #include "specimens/memory.hpp"
 
 namespace proveta {
@@ -126,6 +127,11 @@ Specimens make_ready(const Plan& plan, Board& board) {
 MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const RunOptions& options, const RunWatch& watch) {
     MemberResult result;
     result.member = &member;
+    const std::string checkpoint = folder.file("checkpoint.h5");
+    if (options.passage == Passage::report && !std::filesystem::exists(checkpoint) &&
+        !std::filesystem::exists(earlier_checkpoint(checkpoint))) {
+        return result; // it was not run
+    }
     try {
         Finished finished = carry_out(member.deck, std::move(specimen), folder, options.command, watch, options.passage);
         result.status = name(finished.status);
@@ -194,7 +200,9 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
         report::write_json(out.file("manifest.json"), series_manifest(plan, specimens.hashes, options.command, status, started, folder));
     };
     options.passage == Passage::begin ? out.begin() : out.go_on();
-    write_manifest("running");
+    if (options.passage != Passage::report) {
+        write_manifest("running");
+    }
     auto members = run_members(plan, specimens, folders, options, static_cast<std::size_t>(std::max(threads, 1)), board);
 
     SeriesResults results = evaluate(std::move(members), interrupted());

@@ -174,7 +174,7 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
     const auto ended = [&](std::size_t k, const std::string& failure) {
         const Trial& trial = trials[units[k].trial];
         const fs::path job = folders_.trial(trial.key) / units[k].job;
-        if (!failure.empty() && !fs::exists(job / "result.json")) {
+        if (!failure.empty() && !result_in(job)) {
             write_failure(job, failure);
         }
         ++done;

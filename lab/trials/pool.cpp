@@ -49,7 +49,7 @@ pid_t start(const ProcessCommand& command) {
     const int log = open(command.log.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
     const int nothing = open("/dev/null", O_RDONLY);
     if (log < 0 || nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(log, STDOUT_FILENO) < 0 || dup2(log, STDERR_FILENO) < 0) {
-        _exit(127);
+        _exit(exit_files);
     }
     execv("/proc/self/exe", argv.data());
     _exit(127);
@@ -78,8 +78,10 @@ bool run_processes(const std::vector<ProcessCommand>& commands, std::size_t at_o
     std::size_t next = 0;
     bool asked = false; // to stop
     const auto stop = [&] {
-        for (const auto& [pid, k] : asked ? std::map<pid_t, std::size_t>() : running) {
-            kill(pid, SIGTERM);
+        if (!asked) {
+            for (const auto& [pid, k] : running) {
+                kill(pid, SIGTERM);
+            }
         }
         asked = true;
     };

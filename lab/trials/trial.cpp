@@ -144,8 +144,12 @@ std::optional<JobResult> result_in(const fs::path& job) {
     if (!json.is_object()) {
         return std::nullopt;
     }
-    const JobResult result = job_result(json);
-    return result.status == "complete" && !fs::exists(job / "curve.csv") ? std::nullopt : std::optional(result);
+    try {
+        const JobResult result = job_result(json);
+        return result.status == "complete" && !fs::exists(job / "curve.csv") ? std::nullopt : std::optional(result);
+    } catch (const Json::exception&) {
+        return std::nullopt; // of another kind
+    }
 }
 
 std::vector<JobResult> TrialFolders::finished(const std::string& key) const {

@@ -76,7 +76,7 @@ class TrialFolders {
     std::filesystem::path out_;
 };
 
-/// The result of a job's folder; nothing where there is none, or one without its curve. Throws Json::exception for a file of another kind.
+/// The result of a job's folder; nothing where there is none, one of another kind, or one without its curve.
 std::optional<JobResult> result_in(const std::filesystem::path& job);
 
 /// Carries out one job of a trial's folder, whatever went before, and writes its result. What fails is a result too. Returns false on an

@@ -34,6 +34,13 @@ TEST_CASE("JSON: keys that stand twice, each at its place, and levels without en
     CHECK(twice[0].path == "/list/2/b");
     CHECK(twice[1].path == "/a");
     CHECK(twice[2].path == "/a/d");
+    std::string many = R"({")" + std::string(20000, 'k') + R"(": {"a": 0)";
+    for (int k = 0; k < 15000; ++k) {
+        many += R"(, "a": 0)";
+    }
+    const auto first = problems_of(many + "}}");
+    CHECK(first.size() == 50);
+    CHECK(first[0].path.size() < 200);
     const std::string deep = std::string(100000, '[') + std::string(100000, ']');
     CHECK_THAT(problems_of(deep).at(0).found, Catch::Contains("64 nested levels"));
     input::Json deck = {{"test", "ucs"}};

@@ -220,7 +220,7 @@ TEST_CASE("a folder gives up the members of the series that it held, and nothing
     CHECK(fs::exists(folder / "p_1MPa"));
     out.begin();
     CHECK_FALSE(fs::exists(folder / "p_1MPa"));
-    CHECK_FALSE(fs::exists(folder / "manifest.json"));
+    CHECK(input::text_at(input::load_json((folder / "manifest.json").string()), "status") == "cleared");
     CHECK(fs::exists(folder / "mine" / "notes.txt"));
     CHECK(fs::exists(decks.path() / "manifest.json"));
 }
@@ -245,6 +245,13 @@ TEST_CASE("a folder is an earlier result by its own manifest or ledger, and by n
     CHECK(usable("trials", "ledger.jsonl", R"({"jobs":[],"trial":"a","values":[]})"));
     CHECK(usable("begun", "ledger.jsonl", ""));
     CHECK(usable("killed", "manifest.json.partial", "{"));
+    CHECK_FALSE(usable("films", "film.mp4.partial", "x"));
+    fs::create_directories(place.path() / "series" / "seed_1"); // of a series that was killed before its tests
+    CHECK(usable("series", "manifest.json.partial", "{"));
+    fs::create_directories(place.path() / "shared" / "pictures");
+    std::ofstream(place.path() / "shared" / "pictures" / "cat.png") << "x";
+    CHECK_FALSE(usable("shared", "ledger.jsonl", ""));
+    CHECK_FALSE(usable("short", "ledger.jsonl", "abc"));
 }
 
 TEST_CASE("a folder that is not begun goes, but not what others have put there") {
@@ -260,6 +267,12 @@ TEST_CASE("a folder that is not begun goes, but not what others have put there")
     }
     CHECK(fs::exists(place.path() / "a" / "thesis.txt"));
     CHECK_FALSE(fs::exists(place.path() / "a" / "b"));
+    fs::create_symlink(place.path() / "nowhere", place.path() / "link");
+    CHECK_THROWS_AS(OutputFolder(place.path() / "link"), input::InputError);
+    CHECK(fs::is_symlink(place.path() / "link"));
+    { const OutputFolder out(place.path() / "q" / ".." / "w"); }
+    CHECK_FALSE(fs::exists(place.path() / "q"));
+    CHECK_FALSE(fs::exists(place.path() / "w"));
 }
 
 TEST_CASE("names of members are names of folders that are none of the results' own files") {

@@ -1,5 +1,6 @@
 // Legacy files of VTK: what its own writers write is read, and what is damaged is refused.
 #include <catch2/catch.hpp>
+#include <vtkBitArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -35,10 +36,20 @@ template <class Data> void add_data(Data& data) {
     words->SetName("note");
     words->InsertNextValue("POINTS of view");
     data.GetFieldData()->AddArray(words);
-    const vtkNew<vtkDoubleArray> time;
-    time->SetName("TIME");
-    time->InsertNextValue(0.25);
-    data.GetFieldData()->AddArray(time);
+    words->InsertNextValue(std::string(300, 'x')); // whose length takes two bytes
+    for (const char* name : {"TIME", "lines", "CELLS", "cell_data"}) {
+        const vtkNew<vtkDoubleArray> array;
+        array->SetName(name);
+        array->InsertNextValue(0.25);
+        array->InsertNextValue(1e300);
+        data.GetFieldData()->AddArray(array);
+    }
+    const vtkNew<vtkBitArray> bits;
+    bits->SetName("bits");
+    for (int k = 0; k < 11; ++k) {
+        bits->InsertNextValue(k % 2);
+    }
+    data.GetFieldData()->AddArray(bits);
 }
 
 template <class Writer, class Data> std::string written(Data& data, int version, bool binary, const TemporaryFolder& folder) {
@@ -67,7 +78,7 @@ TEST_CASE("VTK's legacy files as VTK writes them, old and new, text and binary")
     const TemporaryFolder folder;
     for (const int version : {vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2, vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1}) {
         for (const bool binary : {false, true}) {
-            for (const int type : {VTK_FLOAT, VTK_DOUBLE}) {
+            for (const int type : {VTK_FLOAT, VTK_DOUBLE, VTK_SHORT, VTK_UNSIGNED_CHAR, VTK_ID_TYPE}) {
                 INFO("version " << version << ", binary " << binary << ", type " << type);
                 const vtkNew<vtkUnstructuredGrid> grid;
                 grid->SetPoints(corners(type));
@@ -79,8 +90,13 @@ TEST_CASE("VTK's legacy files as VTK writes them, old and new, text and binary")
                 const auto in = proveta::vtk::read_legacy(written<vtkUnstructuredGridWriter>(*grid.Get(), version, binary, folder),
                                                           "UNSTRUCTURED_GRID");
                 REQUIRE(in.point.size() == 5);
-                CHECK(in.point[3].z() == 0.125);
-                CHECK(in.point[4].z() == Approx(1e-3).epsilon(1e-7));
+                CHECK(in.point[1] == Vec3(1, 0, 0));
+                if (type == VTK_FLOAT || type == VTK_DOUBLE) {
+                    CHECK(in.point[3].z() == 0.125);
+                    CHECK(in.point[4].z() == Approx(1e-3).epsilon(1e-7));
+                } else if (type != VTK_UNSIGNED_CHAR) {
+                    CHECK(in.point[4] == Vec3(-2, 3, 0));
+                }
                 CHECK(in.type == std::vector<long long>{VTK_TETRA, VTK_TRIANGLE});
                 CHECK(in.cells.at("CELLS").first == std::vector<std::size_t>{0, 4, 7});
                 CHECK(in.cells.at("CELLS").point == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 2, 1});
@@ -129,6 +145,9 @@ TEST_CASE("VTK's legacy files that are damaged are refused with what is wrong") 
     CHECK_THAT(refusal(polygons("0 3", "0 1")), Contains("missing: the file ends"));
     CHECK_THAT(refusal(points + "POLYGONS 2 99999\n"), Contains("99999"));
     CHECK_THAT(refusal(points + points), Contains("a second section POINTS"));
+    CHECK(refusal(points + "LINES 0 0\nPOLYGONS 0 0\nOFFSETS int\nCONNECTIVITY int\n").empty());
+    CHECK_THAT(refusal("FIELD data 1\nx 1 5 double\n1 2 3 4\n"), Contains("missing: the file ends"));
+    CHECK_THAT(refusal("FIELD data 1\nx 1 5 what\n1 2 3 4\n"), Contains("\"what\""));
     CHECK_THAT(refusal(points + "GONS 1 4\n"), Contains("GONS"));
     CHECK_THAT(refusal("POINTS 1 text\n0 0 0\n"), Contains("the type is \"text\""));
     CHECK_THAT(refusal(points, "# vtk DataFile Version 5.1\nt\nBINARIES\n"), Contains("ASCII or BINARY"));
