@@ -48,9 +48,6 @@ constexpr std::array result_files{"report.html",
                                   "sensitivity.csv",
                                   "curve_sensitivity.csv",
                                   "trials.csv",
-                                  "trials.txt",
-                                  "slurm.sh",
-                                  "mpi.sh",
                                   "card.json",
                                   "progress.json"};
 

@@ -71,7 +71,8 @@ int guarded(const proveta::Command& command) {
         return proveta::exit_files;
     } catch (const std::system_error& e) { // of what is printed
         if (e.code().value() == EPIPE) {
-            return 0; // a reader that has gone has seen enough
+            std::clearerr(stdout); // a reader that has gone has seen enough
+            return 0;
         }
         spdlog::error("not all could be printed: {}", e.code().message());
         return proveta::exit_files;

@@ -1,8 +1,6 @@
 // What the commands that run tests share.
 #include <omp.h>
 
-#include <csignal>
-
 #include "lab/cli/commands.hpp"
 #include "lab/progress.hpp"
 
@@ -41,9 +39,7 @@ void use_threads(int threads) {
     }
 }
 
-int exit_interrupted() {
-    return exit_signal + (interrupted() ? interrupt_signal() : SIGTERM); // else a process of ours was told to stop
-}
+int exit_interrupted() { return exit_signal + interrupt_signal(); }
 
 int exit_code(RunStatus status) {
     switch (status) {

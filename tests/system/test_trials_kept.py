@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -174,11 +175,11 @@ class Others(Reliability):
             self.assertEqual(self.content("out", "curve.csv"), before)
             self.assertEqual(self.status(), "complete")
 
-    def test_a_kill_while_an_earlier_result_is_cleared(self):
-        deck = self.deck(specimen=BODY, output={"samples": 40, "fields": 0, "pictures": 0}, material={"elasticity": "as-given"})
+    def killed_while_cleared(self, deck, crowded, result):
+        """The program replaces a result of many files, and is killed as it clears them; what has been there is calculated anew."""
         self.assertEqual(self.run_program("run", deck, "--out", "out", "--quiet").returncode, 0)
-        whole = self.content("out", "curve.csv")
-        fields = self.folder / "out" / "fields"
+        whole = self.content("out", result)
+        fields = self.folder / "out" / crowded / "fields"
         fields.mkdir()
         for k in range(20000):  # which take a while to go
             (fields / f"old_{k}.vtp").write_text("x")
@@ -190,8 +191,16 @@ class Others(Reliability):
         self.assertEqual(self.status(), "cleared")
         done = self.run_program("resume", "out", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.content("out", "curve.csv"), whole)
+        self.assertEqual(self.content("out", result), whole)
         self.assertFalse(fields.exists())
+
+    def test_a_kill_while_an_earlier_result_is_cleared(self):
+        given = {"output": {"samples": 40, "fields": 0, "pictures": 0}, "material": {"elasticity": "as-given"}}
+        with self.subTest("a run"):
+            self.killed_while_cleared(self.deck(specimen=BODY, **given), ".", "curve.csv")
+        shutil.rmtree(self.folder / "out")
+        with self.subTest("a series"):
+            self.killed_while_cleared(self.deck(specimen={**BODY, "seed": [1, 2]}, **given), "seed_1", "series.csv")
 
     def test_what_cannot_be_printed_is_no_success(self):
         for command in ("describe", "schema"):  # less and more than is held back before it is written
