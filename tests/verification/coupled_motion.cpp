@@ -10,6 +10,7 @@
 #include "tests/support.hpp"
 
 using namespace proveta;
+using namespace proveta::testing;
 
 namespace {
 
