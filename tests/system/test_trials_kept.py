@@ -167,7 +167,7 @@ class Others(Reliability):
         self.assertEqual(self.run_program("run", deck, "--out", "out", "--quiet").returncode, 0)
         before = self.content("out", "curve.csv")
         for after in (0.1, 0.3, 0.6):
-            process = self.start("run", deck, "--out", "out", "--set", "specimen.spheres=6000", until="out")
+            process = self.start("run", deck, "--out", "out", "--set", "specimen.spheres=20000", until="out")  # seconds before its test begins
             time.sleep(after)
             process.send_signal(signal.SIGINT)
             _, log = process.communicate(timeout=60)
