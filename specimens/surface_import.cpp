@@ -26,8 +26,6 @@ namespace proveta {
 
 namespace {
 
-constexpr double farthest = 1e12; // m: of what is no mistake in a file
-
 std::string ending(const std::string& file) {
     std::string out = std::filesystem::path(file).extension().string();
     std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -98,7 +96,7 @@ SurfaceMesh mesh_of(vtkPolyData& data, double scale, const std::string& file) {
         double x[3];
         data.GetPoint(k, x);
         const Vec3 v = scale * Vec3(x[0], x[1], x[2]);
-        if (!(v.array().abs() <= farthest).all()) { // nor what is no number
+        if (!(v.array().abs() <= farthest_corner).all()) { // nor what is no number
             throw std::runtime_error(fmt::format("{}: point {} is at {:.4g} {:.4g} {:.4g} m", file, k + 1, v.x(), v.y(), v.z()));
         }
         mesh.vertex.push_back(v);

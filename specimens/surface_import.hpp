@@ -8,6 +8,8 @@
 
 namespace proveta {
 
+constexpr double farthest_corner = 1e12; ///< of a surface, m: what lies beyond is a mistake
+
 /// A surface as read, fit for contact.
 struct ImportedSurface {
     SurfaceMesh mesh;

@@ -88,18 +88,16 @@ class LegacyText {
                 fail(fmt::format("{}: more values than the file can hold", solid_files::shown(name)));
             }
             const std::size_t values = components * tuples;
-            const std::string_view type = word();
-            if (in_capitals(type) == "STRING") {
+            if (begins_with("STRING")) {
                 pass_over_texts(values);
-            } else if (in_capitals(type) == "BIT" && binary_) {
+            } else if (begins_with("BIT") && binary_) {
                 next_line();
                 pass_over_bytes((values + 7) / 8);
-            } else if (in_capitals(type) == "BIT") {
+            } else if (begins_with("BIT")) {
+                (void)word();
                 numbers<double>(values, {1, NumberType::whole}, name, [](double) {});
-            } else if (const auto found = number_types.find(in_capitals(type)); found != number_types.end()) {
-                numbers<double>(values, found->second, name, [](double) {});
             } else {
-                fail(fmt::format("{}: an array of type {}, which is not known", solid_files::shown(name), solid_files::shown(type)));
+                numbers<double>(values, number_type(name, true), name, [](double) {});
             }
             --left;
         }

@@ -16,7 +16,8 @@ struct FileError : std::runtime_error {
 /// its name. Throws FileError with the system's reason; nothing is left then but what was there before.
 void write_whole(const std::string& file, const void* data, std::size_t size);
 
-/// Gives a file, which is whole and on the disk, its name, and has the folder remember it. Throws FileError with the system's reason.
+/// Gives a file, which is whole and on the disk, its name, and has the folder remember it. Throws FileError with the system's
+/// reason; what was to be moved is gone then.
 void move_into_place(const std::string& from, const std::string& file);
 
 /// Makes a folder, and those around it, unless it is there. Throws FileError with the system's reason.

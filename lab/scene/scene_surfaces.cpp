@@ -66,12 +66,11 @@ bool have_room(double faces, const Scene& scene, std::size_t k, input::Problems&
 
 // Complains of a mesh that reaches so far that nothing can be calculated there.
 bool within_reach(const SurfaceMesh& mesh, const Scene& scene, std::size_t k, input::Problems& problems) {
-    constexpr double farthest = 1e12; // m
     for (const auto& v : mesh.vertex) {
-        if (!(v.array().abs() <= farthest).all()) { // nor what is no number
+        if (!(v.array().abs() <= farthest_corner).all()) { // nor what is no number
             problems.push_back({scene.source, fmt::format("/surfaces/{}", k),
                                 fmt::format("a corner at {:.4g} {:.4g} {:.4g} m", v.x(), v.y(), v.z()),
-                                fmt::format("corners within {:g} m", farthest), ""});
+                                fmt::format("corners within {:g} m", farthest_corner), ""});
             return false;
         }
     }

@@ -200,9 +200,8 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
 // A trial that has ended, and whose curves nobody has taken away.
 bool TrialBook::holds(const std::string& key) const {
     const auto found = known_.find(key);
-    return found != known_.end() && std::all_of(found->second.jobs.begin(), found->second.jobs.end(), [&](const JobResult& job) {
-               return job.status != "complete" || fs::exists(folders_.trial(key) / job.name / "curve.csv");
-           });
+    const auto whole = [&](const JobResult& job) { return has_all_of(job, folders_.trial(key) / job.name); };
+    return found != known_.end() && std::all_of(found->second.jobs.begin(), found->second.jobs.end(), whole);
 }
 
 std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const std::string& what) {

@@ -138,6 +138,8 @@ std::vector<std::string> jobs_of(const fs::path& trial) {
     return out;
 }
 
+bool has_all_of(const JobResult& result, const fs::path& job) { return result.status != "complete" || fs::exists(job / "curve.csv"); }
+
 std::optional<JobResult> result_in(const fs::path& job) {
     std::ifstream in(job / "result.json");
     const Json json = in ? Json::parse(in, nullptr, false) : Json();
@@ -146,7 +148,7 @@ std::optional<JobResult> result_in(const fs::path& job) {
     }
     try {
         const JobResult result = job_result(json);
-        return result.status == "complete" && !fs::exists(job / "curve.csv") ? std::nullopt : std::optional(result);
+        return has_all_of(result, job) ? std::optional(result) : std::nullopt;
     } catch (const Json::exception&) {
         return std::nullopt; // of another kind
     }

@@ -76,6 +76,9 @@ class TrialFolders {
     std::filesystem::path out_;
 };
 
+/// Whether a job's folder has what its result speaks of: the curve of one that is complete.
+bool has_all_of(const JobResult& result, const std::filesystem::path& job);
+
 /// The result of a job's folder; nothing where there is none, one of another kind, or one without its curve.
 std::optional<JobResult> result_in(const std::filesystem::path& job);
 
