@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -42,6 +43,7 @@ constexpr std::array result_files{"report.html",
                                   "platens.pvd",
                                   "membrane.pvd",
                                   "views.py",
+                                  "comparison.csv",
                                   "table.csv",
                                   "table.h5",
                                   "failures.csv",
@@ -185,12 +187,26 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     if (!holds_nothing(path) && !own_manifest(path).is_object() && !holds_ledger(path)) {
         refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
     }
-    lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // A file system without locks is no reason to refuse.
-    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        close(lock_);
+    if (!claim()) {
         refuse("into which another run is writing now", "a folder of its own");
     }
+}
+
+// Locks the folder that the path leads to now; false where another process has. A file system without locks is no reason to refuse.
+bool OutputFolder::claim() {
+    if (lock_ >= 0) {
+        close(lock_);
+    }
+    lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    return lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+// Whether the path still leads to the folder claimed, as far as can be seen.
+bool OutputFolder::still_there() const {
+    struct stat claimed = {};
+    struct stat found = {};
+    return lock_ < 0 || fstat(lock_, &claimed) != 0 ||
+           (stat(path_.c_str(), &found) == 0 && found.st_dev == claimed.st_dev && found.st_ino == claimed.st_ino);
 }
 
 // What was made here goes, as long as nobody has put anything into it.
@@ -215,7 +231,7 @@ void OutputFolder::begin() {
     auto manifest = own_manifest(path_);
     if (manifest.is_object()) { // who finds it now finds no whole result
         manifest["status"] = "cleared";
-        report::write_json(file("manifest.json"), manifest);
+        write_manifest(manifest);
     }
     for (const auto& member : members_in(path_, manifest)) {
         clear_member(member);
@@ -223,8 +239,18 @@ void OutputFolder::begin() {
     for (const char* name : result_files) {
         clear(path_ / name);
     }
-    make_folder(path_.string()); // a series that was cleared may have held it
+    make_folder(path_); // a series that was cleared may have held it
+    if (!still_there() && !claim()) {
+        throw FileError(path_.string() + " has been taken by another run");
+    }
     remove_halves(path_);
+}
+
+void OutputFolder::write_manifest(const input::Json& manifest) const {
+    if (!still_there()) {
+        throw FileError(path_.string() + " is not the folder any more that this began in: it has been moved or removed");
+    }
+    report::write_json(file("manifest.json"), manifest);
 }
 
 void OutputFolder::go_on() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/files/whole_file.hpp"
+#include "core/input/json.hpp"
 
 namespace proveta {
 
@@ -32,10 +33,16 @@ class OutputFolder {
     /// Keeps the folder with all that an unfinished result has left there but halves of files.
     void go_on();
 
+    /// Writes manifest.json. Throws FileError where the path leads to another folder now than the one claimed, or to none: that one
+    /// was moved or removed, and what was written into it went with it.
+    void write_manifest(const input::Json& manifest) const;
+
     [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:
+    [[nodiscard]] bool claim();
+    [[nodiscard]] bool still_there() const;
     void take_away() const;
 
     std::filesystem::path path_;

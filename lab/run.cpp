@@ -148,7 +148,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     }
     const auto write_manifest = [&](const char* status) {
         sheet["status"] = status;
-        report::write_json(out.file("manifest.json"), sheet);
+        out.write_manifest(sheet);
     };
     if (passage != Passage::report) { // which changes nothing before it has succeeded
         write_manifest("running");

@@ -78,7 +78,7 @@ void write_whole(const std::string& file, const void* data, std::size_t size) {
 
 void make_folder(const std::string& folder) {
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
+    std::filesystem::create_directory(folder, error);
     if (error) {
         throw FileError(folder + " cannot be made: " + error.message());
     }

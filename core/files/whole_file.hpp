@@ -20,7 +20,8 @@ void write_whole(const std::string& file, const void* data, std::size_t size);
 /// reason; what was to be moved is gone then.
 void move_into_place(const std::string& from, const std::string& file);
 
-/// Makes a folder, and those around it, unless it is there. Throws FileError with the system's reason.
+/// Makes a folder in one that is there, unless it is there itself: a result that has been moved away is not begun again by what belongs
+/// into it. Throws FileError with the system's reason.
 void make_folder(const std::string& folder);
 
 } // namespace proveta

@@ -99,9 +99,7 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     catch_interrupts();
     TrialBook book(out, a.elsewhere() ? BookMode::plan : BookMode::run, static_cast<std::size_t>(omp_get_max_threads()), a.quiet);
     folder.begin(); // once nobody else has the book; trials stay
-    const auto write_manifest = [&](const char* status) {
-        report::write_json(folder.file("manifest.json"), calibration_manifest(plan, typed, status));
-    };
+    const auto write_manifest = [&](const char* status) { folder.write_manifest(calibration_manifest(plan, typed, status)); };
     write_manifest("running");
     if (book.known() > 0 && !a.quiet) {
         spdlog::info("{} trials are in the ledger and will not be repeated", book.known());

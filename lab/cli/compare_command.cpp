@@ -57,12 +57,12 @@ int compare(const PlotArguments& a, const std::string& typed) {
     out.begin();
     report::write_file(out.file("comparison.csv"), report::to_csv(comparison_values(tests)));
     report::write_file(out.file("report.html"), report::to_html(record));
-    report::write_json(out.file("manifest.json"), {{"proveta_comparison_manifest", 1},
-                                                   {"status", "complete"},
-                                                   {"command", typed},
-                                                   {"version", version()},
-                                                   {"written", now_utc()},
-                                                   {"folders", a.folders}});
+    out.write_manifest({{"proveta_comparison_manifest", 1},
+                        {"status", "complete"},
+                        {"command", typed},
+                        {"version", version()},
+                        {"written", now_utc()},
+                        {"folders", a.folders}});
     fmt::print("{}", aligned(record.tables.front()));
     for (const auto& warning : record.warnings) {
         fmt::print("warning: {}\n", warning);

@@ -65,7 +65,7 @@ void write_results(const Scene& scene, const ScenePlay& play, const SceneSeen& s
     sheet["written"] = now_utc();
     sheet["wall_time_s"] = seen.seconds;
     sheet["phase_times_s"] = {{"search", t.search}, {"forces", t.forces}, {"motion", t.motion}};
-    report::write_json(out.file("manifest.json"), sheet);
+    out.write_manifest(sheet);
     fmt::print("{}results in {}\n", as_text(record), out.path().string());
 }
 
@@ -102,7 +102,7 @@ RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder
         log_start(play.model());
     }
     sheet["status"] = "running";
-    report::write_json(out.file("manifest.json"), sheet);
+    out.write_manifest(sheet);
     const SceneSeen seen = performance.go();
     progress.end_line();
     write_results(scene, play, seen, out, sheet);

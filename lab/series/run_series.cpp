@@ -197,7 +197,7 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
     Board board(plan, options.quiet);
     const Specimens specimens = make_ready(plan, board);
     const auto write_manifest = [&](const std::string& status) {
-        report::write_json(out.file("manifest.json"), series_manifest(plan, specimens.hashes, options.command, status, started, folder));
+        out.write_manifest(series_manifest(plan, specimens.hashes, options.command, status, started, folder));
     };
     options.passage == Passage::begin ? out.begin() : out.go_on();
     if (options.passage != Passage::report) {

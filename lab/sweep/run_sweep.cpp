@@ -58,9 +58,7 @@ RunStatus run_sweep(const Sweep& sweep, const SweepOptions& options) {
     TrialBook book(options.out, options.mode, static_cast<std::size_t>(options.threads), options.quiet);
     folder.begin(); // once nobody else has the book
     const std::string started = now_utc();
-    const auto write_manifest = [&](const std::string& status) {
-        report::write_json(folder.file("manifest.json"), manifest_of(sweep, options, status, started));
-    };
+    const auto write_manifest = [&](const std::string& status) { folder.write_manifest(manifest_of(sweep, options, status, started)); };
     write_manifest("running");
     try {
         const RunStatus status = with_way_on(folder.path(), [&] {

@@ -96,7 +96,7 @@ bool make(const Json& deck, const fs::path& file) {
     } catch (const std::exception&) {
         return false;
     }
-    make_folder(file.parent_path().string());
+    make_folder(file.parent_path());
     save_specimen(*specimen, file.string());
     return true;
 }
@@ -105,6 +105,8 @@ bool make(const Json& deck, const fs::path& file) {
 
 bool TrialFolders::write(const Trial& t) const {
     const fs::path folder = trial(t.key);
+    make_folder(folder.parent_path());
+    make_folder(folder);
     Json list = Json::array();
     for (const auto& job : t.jobs) {
         if (interrupted()) {
@@ -118,7 +120,7 @@ bool TrialFolders::write(const Trial& t) const {
                 deck["specimen"] = {{"file", "../../../specimens/" + name}};
             }
         }
-        make_folder((folder / job.name).string());
+        make_folder(folder / job.name);
         report::write_json((folder / job.name / "deck.json").string(), deck);
         list.push_back({{"job", job.name}, {"test", job.test}});
     }

@@ -275,6 +275,35 @@ TEST_CASE("a folder that is not begun goes, but not what others have put there")
     CHECK_FALSE(fs::exists(place.path() / "w"));
 }
 
+TEST_CASE("a result is not ended in another folder than it began in") {
+    const TemporaryFolder place;
+    const fs::path path = place.path() / "out";
+    OutputFolder out(path);
+    out.begin();
+    out.write_manifest({{"status", "running"}});
+    fs::rename(path, place.path() / "moved");
+    CHECK_THROWS_AS(make_folder(out.file("pictures")), FileError);
+    CHECK_FALSE(fs::exists(path));
+    CHECK_THROWS_AS(out.write_manifest({{"status", "complete"}}), FileError);
+    fs::create_directory(path); // a new one of the same name is another all the same
+    CHECK_THROWS_AS(out.write_manifest({{"status", "complete"}}), FileError);
+    CHECK(fs::is_empty(path));
+    CHECK(input::text_at(input::load_json((place.path() / "moved" / "manifest.json").string()), "status") == "running");
+}
+
+TEST_CASE("a member whose folder a series has cleared is held again, and by it alone") {
+    const TemporaryFolder place;
+    fs::create_directories(place.path() / "out" / "ucs");
+    std::ofstream(place.path() / "out" / "ucs" / "manifest.json") << R"({"proveta_manifest": 1})";
+    std::ofstream(place.path() / "out" / "manifest.json") << R"({"proveta_series_manifest": 1, "members": [{"name": "ucs"}]})";
+    OutputFolder series(place.path() / "out");
+    OutputFolder member(place.path() / "out" / "ucs");
+    series.begin();
+    member.begin();
+    member.write_manifest({{"status", "running"}});
+    CHECK_THROWS_AS(OutputFolder(place.path() / "out" / "ucs"), input::InputError);
+}
+
 TEST_CASE("names of members are names of folders that are none of the results' own files") {
     for (const char* good : {"p_1MPa", "ucs", "a b", "1"}) {
         CHECK(is_member_name(good));
