@@ -113,14 +113,15 @@ class Folders(Reliability):
         self.no_halves("out")
 
     def test_two_runs_into_one_folder(self):
-        process = self.start("run", self.small(), "--out", "out", "--quiet", until="out/manifest.json")
+        process = self.start("run", self.small(loading={"rate": "0.002 m/s"}), "--out", "out", "--quiet", until="out/manifest.json")
         second = self.run_program("run", self.small(), "--out", "out", "--quiet")
         third = self.run_program("resume", "out", "--quiet")
-        process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 0)
         self.fails(second, 2, "another run is writing")
         self.fails(third, 2, "another run is writing")
-        self.assertEqual(self.status(), "complete")
+        process.send_signal(signal.SIGINT)
+        _, log = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, log)
+        self.assertEqual(self.status(), "interrupted")
 
     def test_checkpoints_that_are_damaged(self):
         deck = self.small()

@@ -180,19 +180,22 @@ class Others(Reliability):
         self.assertEqual(self.run_program("run", deck, "--out", "out", "--quiet").returncode, 0)
         whole = self.content("out", result)
         fields = self.folder / "out" / crowded / "fields"
-        fields.mkdir()
-        for k in range(20000):  # which take a while to go
-            (fields / f"old_{k}.vtp").write_text("x")
-        process = self.start("run", deck, "--out", "out", "--quiet", until="out")
-        while self.status() == "complete" and process.poll() is None:
-            time.sleep(0.001)
-        process.kill()
-        process.communicate()
-        self.assertEqual(self.status(), "cleared")
-        done = self.run_program("resume", "out", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.content("out", result), whole)
-        self.assertFalse(fields.exists())
+        found = []
+        while "cleared" not in found and len(found) < 5:  # a busy machine may be too late for it
+            fields.mkdir()
+            for k in range(20000):  # which take a while to go
+                (fields / f"old_{k}.vtp").write_text("x")
+            process = self.start("run", deck, "--out", "out", "--quiet", until="out")
+            while self.status() == "complete" and process.poll() is None:
+                time.sleep(0.001)
+            process.kill()
+            process.communicate()
+            found.append(self.status())
+            done = self.run_program("resume", "out", "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(self.content("out", result), whole)
+            self.assertFalse(fields.exists())
+        self.assertIn("cleared", found)
 
     def test_a_kill_while_an_earlier_result_is_cleared(self):
         given = {"output": {"samples": 40, "fields": 0, "pictures": 0}, "material": {"elasticity": "as-given"}}
