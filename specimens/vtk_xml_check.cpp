@@ -6,8 +6,10 @@
 #include <array>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "specimens/solid_content.hpp"
+#include "specimens/vtk_xml_tags.hpp"
 
 namespace proveta::vtk {
 
@@ -22,83 +24,92 @@ constexpr double densest = 1100.0; // bytes that a compressor makes of one, at m
 // A file's text and how its arrays are written.
 class XmlCheck {
   public:
-    explicit XmlCheck(const std::string& file) : file_(file), text_(solid_files::text_of(file)), all_(text_) {
-        const std::string_view head = tag_at(all_.find("<VTKFile"));
-        word_ = attribute(head, "header_type") == "UInt64" ? 8 : 4;
-        big_ = attribute(head, "byte_order") == "BigEndian";
-        compressed_ = !attribute(head, "compressor").empty();
+    explicit XmlCheck(const std::string& text) : all_(text), tags_(xml_tags(all_)) {
+        if (tags_.empty() || tags_.front().name != "VTKFile") {
+            fail("cannot be read (it is no file of VTK's)");
+        }
+        const XmlTag& head = tags_.front();
+        word_ = plain(head, "header_type") == "UInt64" ? 8 : 4;
+        big_ = plain(head, "byte_order") == "BigEndian";
+        compressed_ = head.has("compressor");
     }
 
     // Counts that are none, or that no file of this size could hold, even compressed.
     void check_counts() const {
-        for (const std::string_view name : {"NumberOfPoints", "NumberOfCells", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
-                                            "NumberOfPolys", "NumberOfComponents", "NumberOfTuples"}) {
-            for (auto at = all_.find(name); at != std::string_view::npos; at = all_.find(name, at + 1)) {
-                const auto found = quoted(at + name.size());
+        for (const XmlTag& tag : tags_) {
+            for (const std::string_view name : {"NumberOfPoints", "NumberOfCells", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
+                                                "NumberOfPolys", "NumberOfComponents", "NumberOfTuples"}) {
                 double value = 0.0;
-                if (found && (!parse(*found, value) || !(value >= 0.0) || value > densest * size())) {
-                    fail(fmt::format("{} is {}, which a file of {} bytes cannot hold", name, shown(*found), all_.size()));
+                if (tag.has(name) && (!parse(tag.value(name), value) || !(value >= 0.0) || value > densest * size())) {
+                    fail(fmt::format("{} is {}, which a file of {} bytes cannot hold", name, shown(tag.value(name)), all_.size()));
                 }
             }
         }
     }
 
     // Sizes in front of arrays of bytes, and where the cells of a section end in the list of their points: the length that VTK's reader
-    // gives that list. Ends of compressed arrays are not looked at: they would have to be decompressed.
+    // gives that list. Ends of compressed arrays are not looked at: they would have to be decompressed. An element of any name may be
+    // read as an array, and what has an offset is read from the appended data, whatever its format says.
     void check_arrays() const {
-        const auto appended = all_.find("<AppendedData");
-        const bool raw = attribute(tag_at(appended), "encoding") == "raw";
-        const auto data = appended == std::string_view::npos ? appended : all_.find('_', appended);
-        for (auto at = all_.find("<DataArray"); at < appended; at = all_.find("<DataArray", at + 1)) {
-            const std::string_view tag = tag_at(at);
-            const std::string_view format = attribute(tag, "format");
-            const bool ends = attribute(tag, "Name") == "offsets";
-            std::size_t offset = 0;
-            if (format == "binary") {
-                check_bytes({all_.find_first_not_of(space, at + tag.size()), false}, word_of(tag), ends);
-            } else if (format == "appended" && parse(attribute(tag, "offset"), offset) && data != std::string_view::npos) {
-                check_bytes({offset < all_.size() - data ? data + 1 + offset : all_.size(), raw}, word_of(tag), ends);
-            } else if (format == "ascii" && ends) {
-                check_last_number(at + tag.size());
+        const Bytes data = appended();
+        for (const XmlTag& tag : tags_) {
+            const std::string_view format = plain(tag, "format");
+            const std::string_view name = tag.value("Name");
+            const bool ends = name == "offsets" || name.find("&#") != std::string_view::npos; // which may be the same
+            if (tag.has("offset") || format == "appended") {
+                std::size_t offset = 0;
+                if (format != "appended" || !parse(tag.value("offset"), offset) || data.at == all_.size()) {
+                    fail("an array with an offset is not in the appended data, or has none there");
+                }
+                check_bytes({offset < all_.size() - data.at ? data.at + offset : all_.size(), data.raw}, word_of(tag), ends);
+            } else if (format == "binary") {
+                check_bytes({all_.find_first_not_of(space, tag.data), false}, word_of(tag), ends);
+            } else if (!format.empty() && format != "ascii") {
+                fail(fmt::format("the format {} is none of ascii, binary and appended", shown(format)));
+            } else if (ends) {
+                check_last_number(tag.data);
             }
         }
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(file_ + ": " + what); }
-    [[nodiscard]] double size() const { return static_cast<double>(all_.size()); }
-
-    // From a tag's "<" to behind its ">".
-    [[nodiscard]] std::string_view tag_at(std::size_t at) const {
-        return at >= all_.size() ? std::string_view() : all_.substr(at, std::min(all_.find('>', at), all_.size() - 1) + 1 - at);
-    }
-    // What stands in quotes behind an equals sign.
-    [[nodiscard]] std::optional<std::string_view> quoted(std::size_t at) const {
-        const auto open = all_.find_first_not_of("= \t\r\n", at);
-        if (open >= all_.size() || (all_[open] != '"' && all_[open] != '\'')) {
-            return std::nullopt;
-        }
-        const auto close = all_.find(all_[open], open + 1);
-        return close == std::string_view::npos ? std::nullopt : std::optional(all_.substr(open + 1, close - open - 1));
-    }
-    [[nodiscard]] std::string_view attribute(std::string_view tag, std::string_view name) const {
-        const auto at = tag.find(name);
-        return at == std::string_view::npos
-                   ? std::string_view()
-                   : quoted(static_cast<std::size_t>(tag.data() - all_.data()) + at + name.size()).value_or(std::string_view());
-    }
-
-    // Bytes of an array's values, which end their type's name in bits.
-    [[nodiscard]] std::size_t word_of(std::string_view tag) const {
-        const std::string_view type = attribute(tag, "type");
-        return type.ends_with("64") ? 8 : type.ends_with("32") ? 4 : type.ends_with("16") ? 2 : 1;
-    }
-
     // Where an array's bytes begin, and whether they stand there as they are or in base64.
     struct Bytes {
         std::size_t at;
         bool raw;
     };
+
+    [[noreturn]] static void fail(const std::string& what) { throw std::runtime_error(what); }
+    // A value that stands there as it is.
+    [[nodiscard]] static std::string_view plain(const XmlTag& tag, std::string_view attribute) {
+        const auto value = tag.value(attribute);
+        if (value.find('&') != std::string_view::npos) {
+            fail(fmt::format("{} is {}, whose characters are expected as they are", attribute, shown(value)));
+        }
+        return value;
+    }
+    [[nodiscard]] double size() const { return static_cast<double>(all_.size()); }
+
+    // Behind the underscore that appended data begin with; the file's end where there are none.
+    [[nodiscard]] Bytes appended() const {
+        const XmlTag& last = tags_.back();
+        if (last.name != "AppendedData") {
+            return {all_.size(), false};
+        }
+        const auto encoding = last.value("encoding");
+        const auto first = std::min(all_.find_first_not_of(space, last.data), all_.size());
+        if ((encoding != "raw" && encoding != "base64") || all_.substr(first, 1) != "_") {
+            fail("appended data are expected to be raw or base64, and to begin with an underscore");
+        }
+        return {first + 1, encoding == "raw"};
+    }
+
+    // Bytes of an array's values, which end their type's name in bits.
+    [[nodiscard]] static std::size_t word_of(const XmlTag& tag) {
+        const std::string_view type = plain(tag, "type");
+        return type.ends_with("64") ? 8 : type.ends_with("32") ? 4 : type.ends_with("16") ? 2 : 1;
+    }
+
     // None beyond the end, or where base64 ends.
     [[nodiscard]] std::optional<unsigned> byte(const Bytes& b, std::size_t k) const {
         if (b.raw) {
@@ -184,9 +195,8 @@ class XmlCheck {
         }
     }
 
-    std::string file_;
-    std::string text_;
     std::string_view all_;
+    std::vector<XmlTag> tags_;
     std::size_t word_ = 4;
     bool big_ = false;
     bool compressed_ = false;
@@ -195,9 +205,14 @@ class XmlCheck {
 } // namespace
 
 void check_xml(const std::string& file) {
-    const XmlCheck xml(file);
-    xml.check_counts();
-    xml.check_arrays();
+    const std::string text = solid_files::text_of(file);
+    try {
+        const XmlCheck xml(text);
+        xml.check_counts();
+        xml.check_arrays();
+    } catch (const std::runtime_error& e) {
+        throw std::runtime_error(file + ": " + e.what());
+    }
 }
 
 } // namespace proveta::vtk

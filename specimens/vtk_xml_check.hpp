@@ -5,7 +5,8 @@
 
 namespace proveta::vtk {
 
-/// Throws std::runtime_error for counts in an XML file that are none, or that no file of this size could hold, even compressed.
+/// Throws std::runtime_error for counts in an XML file that are none, or that no file of this size could hold, even compressed, and for
+/// what VTK's readers might see in another way than this look at it.
 void check_xml(const std::string& file);
 
 } // namespace proveta::vtk

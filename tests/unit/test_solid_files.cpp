@@ -367,6 +367,29 @@ TEST_CASE("bad VTK files are refused with the reason") {
     says(xml(replaced(vtu, "0 0 0 1<", "0 0 0 nan<")), "bad.vtu");
     says(xml(vtk), "cannot be read");
     says(legacy(vtu), "cannot be read");
+
+    // What VTK's readers would see in another way than the look before them.
+    CHECK(xml(replaced(vtu, "<PointData", "<!-- <DataArray format=\"x\" > --><PointData")).empty());
+    says(xml(replaced(vtu, "<VTKFile", "<!DOCTYPE VTKFile><VTKFile")), "cannot be read (it has a document type");
+    says(xml(replaced(vtu, "<Points>", "<![CDATA[ <AppendedData> ]]><Points>")), "CDATA");
+    const std::string encoded = replaced(vtu, "Name=\"offsets\"", "Name=\"&#111;ffsets\"");
+    CHECK(xml(encoded).empty());
+    says(xml(replaced(encoded, ">4<", ">400000000<")), "last offset is 400000000");
+    says(xml(replaced(vtu, "Name=\"offsets\" format=\"ascii\"", "Name=\"offsets\" format=\"&#97;scii\"")), "format is");
+    CHECK(xml(replaced(vtu, "Name=\"s\"", "Name=\"s &gt; 0 &#181;m &amp; > 1\"")).empty());
+    CHECK(xml(replaced(vtu, ">4<", " A=\"9\">4<")).empty());
+    says(xml(replaced(vtu, ">4<", " A=\"> 999999999 <\">4<")), "bad.vtu"); // which VTK's reader takes for what it holds
+    says(xml(replaced(vtu, "Name=\"offsets\" format=\"ascii\"", "Name=\"offsets\" offset=\"0\" format=\"ascii\"")),
+         "an array with an offset");
+    says(xml(replaced(vtu, "Name=\"offsets\" format=\"ascii\"", "Name=\"offsets\" format=\"Binary\"")), "\"Binary\"");
+    const std::string appended = replaced(vtu, "format=\"ascii\">4<", "format=\"appended\" offset=\"0\"><");
+    says(xml(appended), "an array with an offset");
+    const auto with = [&](const std::string& data) { return xml(replaced(appended, "</VTKFile>", data + "</VTKFile>")); };
+    CHECK(with("<AppendedData encoding=\"base64\"> _CAAAAAQAAAAAAAAA</AppendedData>").empty()); // 8 bytes, and 4 in them
+    says(with("<AppendedData encoding=\"base64\">CAAAAAQAAAAAAAAA</AppendedData>"), "begin with an underscore");
+    says(with("<AppendedDatas/><AppendedData encoding=\"base64\">_CAAAAAQAAAAAAAAA</AppendedData>"), "an array with an offset");
+    says(with("<AppendedData encoding=\"base38\">_CAAAAAQAAAAAAAAA</AppendedData>"), "to be raw or base64");
+    says(with("<AppendedData encoding=\"base64\">_CAAAAAQAAAD///8A</AppendedData>"), "last offset is");
 }
 
 TEST_CASE("a scale must be positive") {
