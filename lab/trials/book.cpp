@@ -98,8 +98,12 @@ TrialBook::TrialBook(fs::path out, BookMode mode, std::size_t threads, bool quie
     try {
         std::size_t good = 0;
         for (auto& result : read_lines(path, good)) {
+            failed_by_machine_.erase(result.key); // the last line of a trial counts
             for (const auto& job : result.jobs) {
                 seconds_[job.name] = job.seconds;
+                if (job.of_machine) {
+                    failed_by_machine_.insert(result.key);
+                }
             }
             known_.insert_or_assign(result.key, std::move(result));
         }
@@ -171,11 +175,11 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
              (folder / u.job / "log.txt").string()});
     }
     std::size_t done = 0;
-    const auto ended = [&](std::size_t k, const std::string& failure) {
+    const auto ended = [&](std::size_t k, const ProcessFailure& failure) {
         const Trial& trial = trials[units[k].trial];
         const fs::path job = folders_.trial(trial.key) / units[k].job;
-        if (!failure.empty() && !result_in(job)) {
-            write_failure(job, failure);
+        if (!failure.reason.empty() && !result_in(job)) {
+            write_failure(job, failure.reason, failure.killed);
         }
         ++done;
         if (--left[units[k].trial] == 0) {
@@ -201,7 +205,21 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
 bool TrialBook::holds(const std::string& key) const {
     const auto found = known_.find(key);
     const auto whole = [&](const JobResult& job) { return has_all_of(job, folders_.trial(key) / job.name); };
-    return found != known_.end() && std::all_of(found->second.jobs.begin(), found->second.jobs.end(), whole);
+    return found != known_.end() && !failed_by_machine_.contains(key) &&
+           std::all_of(found->second.jobs.begin(), found->second.jobs.end(), whole);
+}
+
+// Takes the results of jobs away that the machine made fail, once.
+void TrialBook::forget_failures(const std::string& key) {
+    if (failed_by_machine_.erase(key) == 0) {
+        return;
+    }
+    for (const auto& job : known_.at(key).jobs) {
+        if (job.of_machine) {
+            std::error_code gone;
+            fs::remove(folders_.trial(key) / job.name / "result.json", gone);
+        }
+    }
 }
 
 std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const std::string& what) {
@@ -212,6 +230,7 @@ std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const st
         if (holds(trials[k].key) || !asked.insert(trials[k].key).second) {
             continue;
         }
+        forget_failures(trials[k].key);
         progress_.show(fmt::format("{}: making specimens", what));
         if (!folders_.write(trials[k])) {
             progress_.end_line();

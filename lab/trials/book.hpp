@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ struct TrialsInterrupted : std::runtime_error {
 };
 
 /// Keeps `ledger.jsonl` of a folder: a line of JSON for each trial as it ends. Opening it reads what an earlier process left, up to a line
-/// that it could not finish; a second process on the same folder is refused.
+/// that it could not finish; a second process on the same folder is refused. Jobs that the machine made an earlier process fail are
+/// carried out once more when they are asked for.
 class TrialBook {
   public:
     /// threads: of all trials together; 0: as OpenMP has. Throws InputError when the folder is in use or its ledger is another thing.
@@ -65,6 +67,7 @@ class TrialBook {
     void record(const TrialResult& result);
     bool complete(const Trial& trial);
     [[nodiscard]] bool holds(const std::string& key) const;
+    void forget_failures(const std::string& key);
     void carry_out(const std::vector<Trial>& trials, const std::vector<std::size_t>& missing, const std::string& what);
 
     TrialFolders folders_;
@@ -73,7 +76,8 @@ class TrialBook {
     Progress progress_;
     int file_ = -1;
     std::map<std::string, TrialResult> known_;
-    std::map<std::string, double> seconds_; ///< that a job of the name took lately
+    std::set<std::string> failed_by_machine_; // of those, as an earlier process left them
+    std::map<std::string, double> seconds_;   ///< that a job of the name took lately
     std::size_t carried_out_ = 0;
 };
 

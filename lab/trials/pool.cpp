@@ -63,17 +63,17 @@ bool was_stopped(int status) {
     return WEXITSTATUS(status) == exit_signal + SIGINT || WEXITSTATUS(status) == exit_signal + SIGTERM;
 }
 
-std::string failure_of(int status) {
+ProcessFailure failure_of(int status) {
     if (WIFSIGNALED(status)) {
-        return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        return {fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))), WTERMSIG(status) == SIGKILL};
     }
-    return WEXITSTATUS(status) == 0 ? "" : fmt::format("ended with exit code {}", WEXITSTATUS(status));
+    return {WEXITSTATUS(status) == 0 ? "" : fmt::format("ended with exit code {}", WEXITSTATUS(status))};
 }
 
 } // namespace
 
 bool run_processes(const std::vector<ProcessCommand>& commands, std::size_t at_once,
-                   const std::function<void(std::size_t, const std::string& failure)>& ended, const std::function<void()>& tick) {
+                   const std::function<void(std::size_t, const ProcessFailure&)>& ended, const std::function<void()>& tick) {
     std::map<pid_t, std::size_t> running;
     std::size_t next = 0;
     bool asked = false; // to stop

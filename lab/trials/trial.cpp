@@ -63,12 +63,12 @@ void run(const fs::path& folder, JobResult& result) {
 
 Json to_json(const JobResult& r) {
     return {{"job", r.name},    {"test", r.test},       {"status", r.status},   {"reason", r.reason}, {"quasi_static", r.quasi_static},
-            {"sense", r.sense}, {"seconds", r.seconds}, {"results", r.results}, {"units", r.units}};
+            {"sense", r.sense}, {"seconds", r.seconds}, {"results", r.results}, {"units", r.units},   {"of_machine", r.of_machine}};
 }
 
 JobResult job_result(const Json& j) {
     return {j.at("job"),          j.at("test"),  j.at("status"),  j.at("reason"), j.at("results"),
-            j.at("quasi_static"), j.at("sense"), j.at("seconds"), j.at("units")};
+            j.at("quasi_static"), j.at("sense"), j.at("seconds"), j.at("units"),  j.value("of_machine", false)};
 }
 
 Trial keyed(Trial trial) {
@@ -185,10 +185,11 @@ JobResult unfinished(const fs::path& folder) {
 
 } // namespace
 
-void write_failure(const fs::path& folder, const std::string& reason) {
+void write_failure(const fs::path& folder, const std::string& reason, bool of_machine) {
     JobResult result = unfinished(folder);
     result.status = "failed";
     result.reason = reason;
+    result.of_machine = of_machine;
     report::write_json((folder / "result.json").string(), to_json(result));
 }
 
@@ -202,6 +203,7 @@ bool run_job(const fs::path& folder) {
     } catch (const std::bad_alloc&) {
         result.status = "failed";
         result.reason = "not enough memory";
+        result.of_machine = true;
     } catch (const std::exception& e) {
         result.status = "failed";
         result.reason = e.what();

@@ -44,6 +44,7 @@ struct JobResult {
     double sense = 1.0;                            ///< of the test: 1 where compression is positive, -1 where tension is
     double seconds = 0.0;                          ///< wall time on its threads
     std::map<std::string, std::string> units = {}; ///< SI units of the results that have one
+    bool of_machine = false;                       ///< failed by the machine and not by itself: no memory, or killed
 
     [[nodiscard]] std::optional<double> value(const std::string& result) const {
         const auto found = results.find(result);
@@ -89,8 +90,8 @@ bool run_job(const std::filesystem::path& folder);
 /// Names of the jobs of a trial's folder. Throws InputError when it is none.
 std::vector<std::string> jobs_of(const std::filesystem::path& trial);
 
-/// Puts a failure in the place of a job's result.
-void write_failure(const std::filesystem::path& job, const std::string& reason);
+/// Puts a failure in the place of a job's result. of_machine: see `JobResult`.
+void write_failure(const std::filesystem::path& job, const std::string& reason, bool of_machine);
 
 /// The curve of a job that is done.
 report::Table job_curve(const std::filesystem::path& job);

@@ -56,6 +56,20 @@ class Sweeps(Reliability):
             self.assertSameTable(f"part{attempt}")
         self.assertGreater(stopped, 0)
 
+    def test_a_test_that_was_killed_is_carried_out_again_when_asked_for(self):
+        self.run_whole()
+        process = self.start("sweep", "sweep.json", "--out", "part", "--quiet", "--threads", 1, until="part/trials")
+        while not (children := children_of(process.pid)) and process.poll() is None:
+            time.sleep(0.001)
+        os.kill(children[0], signal.SIGKILL)  # as a system does that is short of memory
+        _, log = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, log)
+        self.assertEqual([f["reason"] for f in self.rows(self.folder / "part" / "failures.csv")], ["ended by signal 9 (Killed)"])
+        done = self.run_program("sweep", "sweep.json", "--out", "part", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertSameTable("part")
+        self.assertEqual(len((self.folder / "part" / "ledger.jsonl").read_text().splitlines()), 9)
+
     def test_a_full_disk_fails_no_test(self):
         self.run_whole()
         # Curves take some 20 kB: they do not fit, ledger and decks do.
