@@ -52,8 +52,9 @@ void Model::check() const {
     } else if (made > numerics_.energy_made * std::fmax(std::fabs(ledger_.given()), noticeable) && made > noticeable &&
                dt_ > 1e-3 * stable_) { // else nothing is stiff
         what << "the energy ledger shows " << made << " J made out of nothing, " << ledger_.given()
-             << " J having been put in; probable cause: a time step above the critical one (it is " << dt_ << " s, the bound " << stable_
-             << " s)";
+             << " J having been put in; probable cause: "
+             << (dt_ > stable_ ? "a time step above the critical one" : "a scheme of integration that no step is small enough for")
+             << " (the step is " << dt_ << " s, the bound " << stable_ << " s)";
     } else if (fastest_ > most) {
         what
             << "a sphere or platen runs away at " << fastest_ << " m/s, more than " << numerics_.fastest

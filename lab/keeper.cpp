@@ -11,20 +11,24 @@
 namespace proveta {
 
 Keeper::Keeper(const OutputFolder& out, const char* name, std::string owner, double every, VisitState extra)
-    : file_(out.file(name)), owner_(std::move(owner)), every_(every), extra_(std::move(extra)) {}
+    : out_(out), name_(name), owner_(std::move(owner)), every_(every), extra_(std::move(extra)) {}
 
-bool Keeper::there() const { return std::filesystem::exists(file_) || std::filesystem::exists(earlier_checkpoint(file_)); }
+bool Keeper::there() const {
+    const std::string file = out_.file(name_);
+    return std::filesystem::exists(file) || std::filesystem::exists(earlier_checkpoint(file));
+}
 
 void Keeper::save(const VisitState& state) {
     const std::lock_guard lock(file_libraries());
-    save_checkpoint(file_, owner_, all_of(state));
+    save_checkpoint(out_.file(name_), owner_, all_of(state));
     saved_ = Clock::now();
 }
 
 void Keeper::restore(const VisitState& state) const {
     const std::lock_guard lock(file_libraries());
     std::vector<input::Problem> problems;
-    for (const auto& file : {file_, earlier_checkpoint(file_)}) {
+    const std::string last = out_.file(name_);
+    for (const auto& file : {last, earlier_checkpoint(last)}) {
         if (!std::filesystem::exists(file)) {
             continue;
         }

@@ -29,7 +29,8 @@ class Keeper {
   private:
     [[nodiscard]] VisitState all_of(const VisitState& state) const;
 
-    std::string file_;
+    const OutputFolder& out_;
+    std::string name_;
     std::string owner_;
     double every_;
     VisitState extra_;

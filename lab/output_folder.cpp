@@ -123,14 +123,14 @@ void clear(const fs::path& path) {
     }
 }
 
-// A folder of results, its manifest last: until then it says whose the folder is.
+// What is in a folder of results, its manifest last: until then it says whose the folder is.
 void clear_member(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (entry.path().filename() != "manifest.json") {
             clear(entry.path());
         }
     }
-    clear(folder);
+    clear(folder / "manifest.json");
 }
 
 // What a process that was killed did not finish writing.
@@ -187,18 +187,12 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     if (!holds_nothing(path) && !own_manifest(path).is_object() && !holds_ledger(path)) {
         refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
     }
-    if (!claim()) {
+    lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // A file system without locks is no reason to refuse.
+    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        close(lock_);
         refuse("into which another run is writing now", "a folder of its own");
     }
-}
-
-// Locks the folder that the path leads to now; false where another process has. A file system without locks is no reason to refuse.
-bool OutputFolder::claim() {
-    if (lock_ >= 0) {
-        close(lock_);
-    }
-    lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    return lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 // Whether the path still leads to the folder claimed, as far as can be seen.
@@ -226,7 +220,8 @@ OutputFolder::~OutputFolder() {
     }
 }
 
-void OutputFolder::begin() {
+void OutputFolder::begin(const std::vector<std::string>& members) {
+    (void)file(""); // it must be there still: what is cleared is the folder that was claimed
     begun_ = true;
     auto manifest = own_manifest(path_);
     if (manifest.is_object()) { // who finds it now finds no whole result
@@ -235,22 +230,24 @@ void OutputFolder::begin() {
     }
     for (const auto& member : members_in(path_, manifest)) {
         clear_member(member);
+        if (std::find(members.begin(), members.end(), member.filename()) == members.end()) {
+            clear(member);
+        }
     }
     for (const char* name : result_files) {
         clear(path_ / name);
     }
-    make_folder(path_); // a series that was cleared may have held it
-    if (!still_there() && !claim()) {
-        throw FileError(path_.string() + " has been taken by another run");
-    }
     remove_halves(path_);
 }
 
-void OutputFolder::write_manifest(const input::Json& manifest) const {
+void OutputFolder::write_manifest(const input::Json& manifest) const { report::write_json(file("manifest.json"), manifest); }
+
+std::string OutputFolder::file(const std::string& name) const {
     if (!still_there()) {
-        throw FileError(path_.string() + " is not the folder any more that this began in: it has been moved or removed");
+        throw FolderGone(path_.string() + " is not the folder any more that this began in: it has been moved or removed; where it is now, "
+                                          "go on with: proveta resume");
     }
-    report::write_json(file("manifest.json"), manifest);
+    return (path_ / name).string();
 }
 
 void OutputFolder::go_on() {

@@ -16,6 +16,11 @@ bool is_member_name(const std::string& name);
 /// The stem of a file as the name of a folder; `otherwise` where it is none, or that of a manifest.
 std::string result_name(const std::filesystem::path& file, const std::string& otherwise);
 
+/// The folder of a result leads elsewhere now, or nowhere.
+struct FolderGone : FileError {
+    using FileError::FileError;
+};
+
 /// Claims a folder for a result, for this process alone. It must be new, empty, or hold an earlier result, which is cleared only by
 /// `begin`. A folder made here and never begun is taken away again, unless somebody has put something into it, so that a
 /// refused run leaves nothing behind.
@@ -28,20 +33,21 @@ class OutputFolder {
     OutputFolder& operator=(const OutputFolder&) = delete;
 
     /// Clears an earlier result, a series with its members, and keeps the folder. Trials and their ledger stay: they answer only the
-    /// question that they were asked. An earlier manifest stays with the status "cleared", until another one is written.
-    void begin();
+    /// question that they were asked. An earlier manifest stays with the status "cleared", until another one is written. Folders of these
+    /// members stay, empty. Throws FolderGone.
+    void begin(const std::vector<std::string>& members = {});
     /// Keeps the folder with all that an unfinished result has left there but halves of files.
     void go_on();
 
-    /// Writes manifest.json. Throws FileError where the path leads to another folder now than the one claimed, or to none: that one
-    /// was moved or removed, and what was written into it went with it.
+    /// Writes manifest.json. Throws FileError.
     void write_manifest(const input::Json& manifest) const;
 
-    [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+    /// The path of a file in it. Throws FolderGone where the folder's path leads to another one now than that claimed, or to none: it was
+    /// moved or removed, and what was written into it went with it.
+    [[nodiscard]] std::string file(const std::string& name) const;
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:
-    [[nodiscard]] bool claim();
     [[nodiscard]] bool still_there() const;
     void take_away() const;
 
@@ -51,17 +57,23 @@ class OutputFolder {
     bool begun_ = false;
 };
 
-/// Carries work out in a folder. What the machine does not let it write is a FileError that also says how to go on.
-template <class Work> auto with_way_on(const std::filesystem::path& folder, const Work& work) {
+/// Carries work out in a folder. What the machine does not let it write is a FileError that also says how to go on; whatever fails because
+/// the folder has gone is a FolderGone.
+template <class Work> auto with_way_on(const OutputFolder& folder, const Work& work) {
     const auto way_on = [&](const std::string& what) {
-        return FileError(what + "; once that is mended, go on with: proveta resume " + folder.string());
+        return FileError(what + "; once that is mended, go on with: proveta resume " + folder.path().string());
     };
     try {
         return work();
     } catch (const FileError& e) {
+        (void)folder.file("");
         throw way_on(e.what());
     } catch (const std::filesystem::filesystem_error& e) {
+        (void)folder.file("");
         throw way_on(e.path1().string() + ": " + e.code().message());
+    } catch (...) {
+        (void)folder.file("");
+        throw;
     }
 }
 

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "core/hash.hpp"
 #include "core/parallel/instruction_set.hpp"
@@ -58,9 +59,8 @@ std::vector<std::string> files_of(const Deck& deck) {
     }
     std::vector<std::string> files;
     for (const auto& name : names) {
-        const auto base = name == deck.source ? std::filesystem::current_path() : std::filesystem::path(deck.folder);
-        if (!name.empty()) {
-            files.push_back((base / name).string());
+        if (!name.empty()) { // that of the deck stands as it was given
+            files.push_back(name == deck.source ? name : (std::filesystem::path(deck.folder) / name).string());
         }
     }
     return files;
@@ -117,6 +117,23 @@ input::Json manifest_to_go_on_with(const std::string& file, const input::Json& f
     return j;
 }
 
+namespace {
+
+// Files of specimens in the decks of a manifest. They are read again, and refused when they have changed.
+std::set<std::string> stored_specimens(const input::Json& json) {
+    std::set<std::string> out;
+    for (const auto& [key, value] : json.items()) {
+        if (key == "specimen" && value.is_object()) {
+            out.insert(input::text_at(value, "file"));
+        } else if (value.is_structured()) {
+            out.merge(stored_specimens(value));
+        }
+    }
+    return out;
+}
+
+} // namespace
+
 std::vector<std::string> changes_since(const input::Json& manifest) {
     std::vector<std::string> out;
     const auto compare = [&](const char* key, const std::string& now, const char* consequence) {
@@ -129,9 +146,10 @@ std::vector<std::string> changes_since(const input::Json& manifest) {
     compare("compiler", PROVETA_COMPILER, rounding);
     compare("build", PROVETA_BUILD, rounding);
     if (manifest.contains("files") && manifest["files"].is_object()) {
+        const auto specimens = stored_specimens(manifest);
         for (const auto& [file, hash] : manifest["files"].items()) {
             const std::string now = hash_of_file(file);
-            if (hash.is_string() && now != hash.get<std::string>()) {
+            if (hash.is_string() && now != hash.get<std::string>() && !specimens.contains(file)) {
                 out.push_back(fmt::format("{} {} since the test began; it goes on with what it began with", file,
                                           now.empty() ? "has gone" : "has changed"));
             }

@@ -193,7 +193,9 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
         data.rate_check = check_rate(deck, bench.specimen, data.curve, again);
         data.interrupted = !data.rate_check && hooks.interrupted();
     }
-    sheet["wall_time_of_loading_s"] = before + since(loading);
+    if (passage != Passage::report) {
+        sheet["wall_time_of_loading_s"] = before + since(loading);
+    }
 
     const RunStatus status = !data.failure.empty() ? RunStatus::failed : data.interrupted ? RunStatus::interrupted : RunStatus::complete;
     report::write_file(out.file("curve.csv"), report::to_csv(data.curve));
@@ -243,7 +245,7 @@ RunStatus make_and_test(const Deck& deck, const RunOptions& options) {
     const auto show = [&](const std::string& phase, const std::string& figures, double) {
         progress.show(phase == "loading" ? figures : phase + ": " + figures);
     };
-    const Finished finished = with_way_on(out.path(), [&] {
+    const Finished finished = with_way_on(out, [&] {
         return carry_out(deck, std::move(specimen), out, options.command, {show, log}, options.passage);
     });
     progress.end_line();

@@ -109,7 +109,8 @@ class Run {
             } else if (data_.stopped_by.empty()) {
                 data_.stopped_by = "the loading is complete";
             }
-            if (deck_.output.fields > 0 && over_ == 0 && model_.steps() > 0) { // nothing is measured before the first step
+            model_.follow_bodies(); // for the pictures of the end, which may be where the test was restored
+            if (deck_.output.fields > 0 && over_ == 0 && stepped_) { // nothing is measured before a step
                 hooks_.fields();
             }
         } catch (const NumericalFailure& e) {
@@ -211,6 +212,7 @@ class Run {
                 pressure.value = drive_.pressure;
             }
         }
+        stepped_ = true;
         // What is about to be looked at, and perhaps kept, is checked first: a diverged state is not worth keeping.
         model_.step(speeds_, measured || (model_.steps() + 1) % steps_a_look == 0);
         stage.control->stepped(view_, measured);
@@ -255,7 +257,8 @@ class Run {
     std::int64_t stage_ = 0; // that is passed through
     std::int64_t over_ = 0;  // 1: the test is over and everything written
     bool looked_ = true;
-    double before_ = 0.0; // share of the test in earlier stages
+    bool stepped_ = false; // by this process: forces and stresses are those of a step, and are not kept
+    double before_ = 0.0;  // share of the test in earlier stages
     std::int64_t samples_ = 0;
     std::int64_t fields_ = 0;
 };

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdlib>
+#include <string_view>
 
 #include "reports/svg.hpp"
 
@@ -15,6 +17,16 @@ bool numeric(const std::string& text) {
     char* end = nullptr;
     std::strtod(text.c_str(), &end);
     return !text.empty() && end == text.c_str() + text.size();
+}
+
+// A path as a relative address: what has a meaning of its own there is no more than a part of a name.
+std::string relative_address(const std::string& path) {
+    std::string out;
+    for (const char c : path) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/-._~").find(c) != std::string_view::npos;
+        out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return out;
 }
 
 std::string framed(const std::string& name, const std::string& kind, const std::string& rows) {
@@ -32,7 +44,8 @@ std::string table(const TextTable& t) {
         for (std::size_t c = 0; c < t.rows[k].size(); ++c) {
             const std::string& cell = t.rows[k][c];
             const std::string link = c == 0 && k > 0 && k <= t.links.size() ? t.links[k - 1] : "";
-            const std::string shown = link.empty() ? escape(cell) : fmt::format("<a href=\"{}\">{}</a>", escape(link), escape(cell));
+            const std::string shown =
+                link.empty() ? escape(cell) : fmt::format("<a href=\"{}\">{}</a>", relative_address(link), escape(cell));
             if (k == 0) {
                 const bool over_numbers = c > 0 && t.rows.size() > 1 && c < t.rows[1].size() && numeric(t.rows[1][c]);
                 out += cell.empty() ? "<td></td>" : fmt::format("<th scope=\"col\"{}>{}</th>", over_numbers ? " class=\"num\"" : "", shown);

@@ -60,29 +60,30 @@ int show_status(const fs::path& out) {
     return 0;
 }
 
-void write_results(const fs::path& out, const CalibrationPlan& plan, const std::vector<Target>& targets, const CalibrationOutcome& outcome,
-                   const TrialFolders& folders) {
+// Everything but the manifest. Returns what is to be printed too.
+std::string write_results(const OutputFolder& out, const CalibrationPlan& plan, const std::vector<Target>& targets,
+                          const CalibrationOutcome& outcome, const TrialFolders& folders) {
     const Json card = calibrated_card(plan, targets, outcome, folders);
     const report::Record record = calibration_record(plan, targets, outcome, folders);
-    report::write_file((out / "trials.csv").string(), report::to_csv(trials_table(plan, targets, outcome, folders)));
-    report::write_file((out / "report.html").string(), report::to_html(record));
-    report::write_json((out / "summary.json").string(), calibration_summary(plan, record, card));
-    report::write_json((out / "card.json").string(), card);
-    fmt::print("{}: {}\n", record.title, record.stopped_by);
+    report::write_file(out.file("trials.csv"), report::to_csv(trials_table(plan, targets, outcome, folders)));
+    report::write_file(out.file("report.html"), report::to_html(record));
+    report::write_json(out.file("summary.json"), calibration_summary(plan, record, card));
+    report::write_json(out.file("card.json"), card);
+    std::string text = fmt::format("{}: {}\n", record.title, record.stopped_by);
     for (const auto& table : record.overview) {
-        fmt::print("{}\n", table.title);
+        text += fmt::format("{}\n", table.title);
         for (const auto& row : table.rows) {
-            fmt::print("  {:<36}", row.front());
+            text += fmt::format("  {:<36}", row.front());
             for (std::size_t k = 1; k < row.size(); ++k) {
-                fmt::print(" {:>16}", row[k]);
+                text += fmt::format(" {:>16}", row[k]);
             }
-            fmt::print("\n");
+            text += "\n";
         }
     }
     for (const auto& s : record.results) {
-        fmt::print("{}: {:.3f}\n", s.title, s.value.value_or(0.0));
+        text += fmt::format("{}: {:.3f}\n", s.title, s.value.value_or(0.0));
     }
-    fmt::print("card in {}, report in {}\n", (out / "card.json").string(), (out / "report.html").string());
+    return text + fmt::format("card in {}, report in {}\n", out.file("card.json"), out.file("report.html"));
 }
 
 } // namespace
@@ -98,18 +99,22 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     OutputFolder folder(out);
     catch_interrupts();
     TrialBook book(out, a.elsewhere() ? BookMode::plan : BookMode::run, static_cast<std::size_t>(omp_get_max_threads()), a.quiet);
-    folder.begin(); // once nobody else has the book; trials stay
+    a.report ? folder.go_on() : folder.begin(); // once nobody else has the book; trials stay
     const auto write_manifest = [&](const char* status) { folder.write_manifest(calibration_manifest(plan, typed, status)); };
-    write_manifest("running");
+    if (!a.report) { // which changes nothing before it has succeeded
+        write_manifest("running");
+    }
     if (book.known() > 0 && !a.quiet) {
         spdlog::info("{} trials are in the ledger and will not be repeated", book.known());
     }
     const auto keep_state = [&](const std::string& phase, const CalibrationOutcome& so_far) {
-        report::write_json((out / "progress.json").string(), state_of(phase, so_far, book.known()));
+        report::write_json(folder.file("progress.json"), state_of(phase, so_far, book.known()));
     };
     try {
-        with_way_on(out, [&] { write_results(out, plan, targets, calibrate(plan, targets, book, keep_state), book.folders()); });
+        const std::string text = with_way_on(
+            folder, [&] { return write_results(folder, plan, targets, calibrate(plan, targets, book, keep_state), book.folders()); });
         write_manifest("complete");
+        fmt::print("{}", text); // the last: it may find nobody who listens
         return 0;
     } catch (const TrialsPlanned& planned) {
         write_manifest("planned");

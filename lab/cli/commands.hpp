@@ -55,6 +55,7 @@ struct TrialsArguments : RunArguments {
     bool status = false;
     bool plan = false;
     bool collect = false;
+    bool report = false; ///< all of it is there: only what is written at the end is written anew
 
     [[nodiscard]] bool elsewhere() const { return plan || collect; } ///< trials are carried out by others
 };

@@ -50,9 +50,27 @@ std::string aligned(const report::TextTable& table) {
     return out;
 }
 
+// A result that is compared, or a series that holds it, is no earlier comparison to be replaced.
+void refuse_to_replace(const PlotArguments& a) {
+    namespace fs = std::filesystem;
+    const fs::path out = fs::weakly_canonical(a.out);
+    std::vector<input::Problem> problems;
+    for (const auto& folder : a.folders) {
+        const fs::path within = fs::weakly_canonical(folder).lexically_relative(out);
+        if (!within.empty() && *within.begin() != "..") {
+            problems.push_back({"--out", "", fmt::format("\"{}\", which {} \"{}\"", a.out, within == "." ? "is" : "holds", folder),
+                                "a folder that the comparison may replace", ""});
+        }
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+}
+
 int compare(const PlotArguments& a, const std::string& typed) {
     const auto tests = read_results(a.folders);
     const report::Record record = comparison(tests, a.x, a.y);
+    refuse_to_replace(a);
     OutputFolder out(a.out);
     out.begin();
     report::write_file(out.file("comparison.csv"), report::to_csv(comparison_values(tests)));

@@ -79,6 +79,7 @@ int pass_through(const ResumeArguments& a, const std::string& typed, Passage pas
     trials.out = a.folder;
     trials.threads = a.threads;
     trials.quiet = a.quiet;
+    trials.report = passage == Passage::report;
     const bool trialled = manifest.contains("proveta_sweep_manifest") || manifest.contains("proveta_calibration_manifest");
     if (trialled && passage == Passage::report && input::text_at(manifest, "status") != "complete") {
         refuse(a.folder, "one that has not ended", "a sweep or a calibration that is complete", "proveta resume goes on with it");

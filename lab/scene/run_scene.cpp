@@ -101,8 +101,10 @@ RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder
     if (!options.quiet) {
         log_start(play.model());
     }
-    sheet["status"] = "running";
-    out.write_manifest(sheet);
+    if (options.passage != Passage::report) { // which changes nothing before it has succeeded
+        sheet["status"] = "running";
+        out.write_manifest(sheet);
+    }
     const SceneSeen seen = performance.go();
     progress.end_line();
     write_results(scene, play, seen, out, sheet);
@@ -117,7 +119,7 @@ RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder
 RunStatus run_scene(const Scene& scene, const RunOptions& options) {
     OutputFolder out(options.out);
     Progress progress(options.quiet);
-    return with_way_on(out.path(), [&] { return play_scene(scene, options, out, progress); });
+    return with_way_on(out, [&] { return play_scene(scene, options, out, progress); });
 }
 
 void try_scene(const Scene& scene) { ScenePlay play(scene); }

@@ -17,7 +17,8 @@ struct MemberResult {
     std::vector<report::Scalar> results;
     std::vector<report::Badge> badges;
     std::vector<std::string> warnings;
-    bool unwritten = false; ///< it failed because its files could not be written
+    bool unwritten = false;                   ///< it failed because its files could not be written
+    std::vector<input::Problem> refused = {}; ///< it failed because of these: its checkpoints, say
     std::optional<MainCurve> curve;
 
     [[nodiscard]] bool complete() const { return status == "complete"; }

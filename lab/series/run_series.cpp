@@ -20,7 +20,6 @@
 #include "lab/series/workers.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
-#include "specimens/checkpoint.hpp"
 #include "specimens/memory.hpp"
 
 namespace proveta {
@@ -127,9 +126,7 @@ Specimens make_ready(const Plan& plan, Board& board) {
 MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const RunOptions& options, const RunWatch& watch) {
     MemberResult result;
     result.member = &member;
-    const std::string checkpoint = folder.file("checkpoint.h5");
-    if (options.passage == Passage::report && !std::filesystem::exists(checkpoint) &&
-        !std::filesystem::exists(earlier_checkpoint(checkpoint))) {
+    if (options.passage == Passage::report && !std::filesystem::exists(folder.path() / "manifest.json")) {
         return result; // it was not run
     }
     try {
@@ -145,6 +142,10 @@ MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& f
         result.status = "failed";
         result.stopped_by = e.what();
         result.unwritten = true;
+    } catch (const input::InputError& e) {
+        result.status = "failed";
+        result.stopped_by = e.what();
+        result.refused = e.problems;
     } catch (const std::bad_alloc&) {
         result.status = "failed";
         result.stopped_by = "not enough memory";
@@ -187,9 +188,43 @@ std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specime
 
 namespace {
 
-RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study, OutputFolder& out) {
-    std::vector<std::unique_ptr<OutputFolder>> folders;
+// Of members of which no report can be made.
+void refuse_failed(const Plan& plan, const OutputFolder& out) {
+    std::vector<input::Problem> problems;
     for (const auto& member : plan.members) {
+        const auto file = out.path() / member.name / "manifest.json";
+        if (std::filesystem::exists(file) && input::text_at(input::load_json(file.string()), "status") == "failed") {
+            problems.push_back({(out.path() / member.name).string(), "", "a calculation that failed", "one that was stopped or has ended",
+                                "the pages tell of the failure, and its checkpoint is from before"});
+        }
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+}
+
+// Where a report was asked for, nothing is written of the whole unless all could be read, and written.
+void refuse_unread(const std::vector<MemberResult>& members) {
+    std::vector<input::Problem> problems;
+    for (const auto& m : members) {
+        if (m.unwritten) {
+            throw FileError(m.member->name + ": " + m.stopped_by);
+        }
+        problems.insert(problems.end(), m.refused.begin(), m.refused.end());
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
+}
+
+RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study, OutputFolder& out) {
+    if (options.passage == Passage::report) {
+        refuse_failed(plan, out);
+    }
+    std::vector<std::unique_ptr<OutputFolder>> folders;
+    std::vector<std::string> names;
+    for (const auto& member : plan.members) {
+        names.push_back(member.name);
         folders.push_back(std::make_unique<OutputFolder>(out.path() / member.name));
     }
     const std::string started = now_utc();
@@ -199,13 +234,16 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
     const auto write_manifest = [&](const std::string& status) {
         out.write_manifest(series_manifest(plan, specimens.hashes, options.command, status, started, folder));
     };
-    options.passage == Passage::begin ? out.begin() : out.go_on();
+    options.passage == Passage::begin ? out.begin(names) : out.go_on();
     if (options.passage != Passage::report) {
         write_manifest("running");
     }
     auto members = run_members(plan, specimens, folders, options, static_cast<std::size_t>(std::max(threads, 1)), board);
 
-    SeriesResults results = evaluate(std::move(members), interrupted());
+    if (options.passage == Passage::report) {
+        refuse_unread(members);
+    }
+    SeriesResults results = evaluate(std::move(members));
     SeriesExtra extra;
     if (study) {
         extra = study(results.members);
@@ -241,7 +279,7 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
 
 RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study) {
     OutputFolder out(options.out);
-    return with_way_on(out.path(), [&] { return carry_out_series(plan, options, threads, study, out); });
+    return with_way_on(out, [&] { return carry_out_series(plan, options, threads, study, out); });
 }
 
 } // namespace proveta

@@ -238,10 +238,12 @@ std::vector<std::string> all_badges(const std::vector<MemberResult>& members) {
     return out;
 }
 
-SeriesResults evaluate(std::vector<MemberResult> members, bool interrupted) {
+SeriesResults evaluate(std::vector<MemberResult> members) {
     SeriesResults r;
-    const bool failed = std::any_of(members.begin(), members.end(), [](const auto& m) { return m.status == "failed"; });
-    r.status = interrupted ? "interrupted" : failed ? "failed" : "complete";
+    const auto any = [&](const char* status) {
+        return std::any_of(members.begin(), members.end(), [&](const auto& m) { return m.status == status; });
+    };
+    r.status = any("interrupted") || any("not run") ? "interrupted" : any("failed") ? "failed" : "complete";
     r.members = std::move(members);
     r.groups = seed_groups(r.members);
     r.envelope = envelope_of(r.members);

@@ -19,8 +19,8 @@ struct SeriesResults {
     std::vector<report::Scalar> scalars; ///< of the envelope, then ratios of strengths
 };
 
-/// What follows from the members.
-SeriesResults evaluate(std::vector<MemberResult> members, bool interrupted);
+/// What follows from the members. The series is interrupted as long as one of them is, or was not run.
+SeriesResults evaluate(std::vector<MemberResult> members);
 
 /// Every result that a member has, and the name of every verdict: each once, in the order of the members.
 std::vector<report::Scalar> all_results(const std::vector<MemberResult>& members);

@@ -33,8 +33,9 @@ Json manifest_of(const Sweep& sweep, const SweepOptions& options, const std::str
             {"sweep", resolved(sweep)}};
 }
 
-// Everything but the manifest; the report last.
-RunStatus write_results(const Sweep& sweep, const OutputFolder& folder, const TrialFolders& trials, std::vector<TrialResult> results) {
+// Everything but the manifest; the report last. Returns what is to be printed too.
+std::pair<RunStatus, std::string> write_results(const Sweep& sweep, const OutputFolder& folder, const TrialFolders& trials,
+                                                std::vector<TrialResult> results) {
     SweepOutcome outcome;
     outcome.table = make_table(sweep, std::move(results));
     outcome.sensitivities = sensitivities(sweep, outcome.table);
@@ -47,8 +48,9 @@ RunStatus write_results(const Sweep& sweep, const OutputFolder& folder, const Tr
     report::write_file(folder.file("curve_sensitivity.csv"), report::to_csv(curve_rows(sweep, outcome.curves)));
     report::write_json(folder.file("summary.json"), sweep_summary(sweep, outcome, record));
     report::write_file(folder.file("report.html"), report::to_html(record));
-    fmt::print("{}results in {}\n", sweep_text(sweep, outcome, record), folder.path().string());
-    return record.status == "failed" ? RunStatus::failed : RunStatus::complete;
+    const bool failed = record.status == "failed";
+    return {failed ? RunStatus::failed : RunStatus::complete,
+            fmt::format("{}results in {}\n", sweep_text(sweep, outcome, record), folder.path().string())};
 }
 
 } // namespace
@@ -56,15 +58,17 @@ RunStatus write_results(const Sweep& sweep, const OutputFolder& folder, const Tr
 RunStatus run_sweep(const Sweep& sweep, const SweepOptions& options) {
     OutputFolder folder(options.out);
     TrialBook book(options.out, options.mode, static_cast<std::size_t>(options.threads), options.quiet);
-    folder.begin(); // once nobody else has the book
+    options.report ? folder.go_on() : folder.begin(); // once nobody else has the book
     const std::string started = now_utc();
     const auto write_manifest = [&](const std::string& status) { folder.write_manifest(manifest_of(sweep, options, status, started)); };
-    write_manifest("running");
+    if (!options.report) { // which changes nothing before it has succeeded
+        write_manifest("running");
+    }
     try {
-        const RunStatus status = with_way_on(folder.path(), [&] {
-            return write_results(sweep, folder, book.folders(), book.evaluate(trials_of(sweep), sweep.input.title));
-        });
+        const auto [status, text] = with_way_on(
+            folder, [&] { return write_results(sweep, folder, book.folders(), book.evaluate(trials_of(sweep), sweep.input.title)); });
         write_manifest(status == RunStatus::failed ? "failed" : "complete");
+        fmt::print("{}", text); // the last: it may find nobody who listens
         return status;
     } catch (const TrialsPlanned&) {
         write_manifest("planned");

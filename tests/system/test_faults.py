@@ -78,6 +78,20 @@ class Folders(Reliability):
         bare = self.deck({"test": "ucs", "specimen": BODY, "output": {"fields": 0, "checkpoint_every": 60}})
         self.vanishes("run", bare, "manifest.json")
 
+    def test_a_folder_in_whose_place_another_result_is_put(self):
+        self.assertEqual(self.run_program("run", self.small(), "--out", "other", "--quiet").returncode, 0)
+        before = {p: p.read_bytes() for p in (self.folder / "other").rglob("*") if p.is_file()}
+        for until in ("", "checkpoint.h5"):  # before the test has begun, and in its midst
+            process = self.start("run", self.small(loading={"rate": "0.01 m/s"}), "--out", "gone", "--quiet", until="gone/" + until)
+            (self.folder / "gone").rename(self.folder / "vanished")
+            (self.folder / "other").rename(self.folder / "gone")
+            _, log = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 4, log)
+            self.assertIn("moved or removed", log)
+            (self.folder / "gone").rename(self.folder / "other")
+            self.assertEqual({p: p.read_bytes() for p in (self.folder / "other").rglob("*") if p.is_file()}, before)
+            shutil.rmtree(self.folder / "vanished")
+
     def test_the_folder_of_a_series_that_vanishes(self):
         deck = self.deck({"test": "ucs", "specimen": {**BODY, "seed": [1, 2]}, "output": {"fields": 2}})
         self.assertIn(True, [self.vanishes("run", deck, until) for until in ("manifest.json", "seed_1/fields", "seed_2/fields")])

@@ -166,7 +166,7 @@ TEST_CASE("a series finds its envelope, its ratios and its groups") {
                                                      : tested(m, {{"confining_pressure", "Pressure", high ? 1e7 : 0.0, "Pa", ""},
                                                                   {"strength", "Strength", high ? 70e6 : 30e6, "Pa", ""}}));
     }
-    const SeriesResults r = evaluate(members, false);
+    const SeriesResults r = evaluate(members);
     REQUIRE(r.envelope);
     CHECK(r.envelope->points.size() == 5);
     REQUIRE(r.envelope->mohr_coulomb);
@@ -195,11 +195,14 @@ TEST_CASE("a series finds its envelope, its ratios and its groups") {
 
     // What has failed takes no part in what is derived.
     members[0].status = members[1].status = "failed";
-    const SeriesResults partial = evaluate(members, false);
+    const SeriesResults partial = evaluate(members);
     CHECK_FALSE(partial.envelope);
     CHECK(partial.status == "failed");
     CHECK_FALSE(partial.groups[0].mean);
-    CHECK(evaluate(members, true).status == "interrupted");
+    members[2].status = "not run";
+    CHECK(evaluate(members).status == "interrupted");
+    members[2].status = "interrupted";
+    CHECK(evaluate(members).status == "interrupted");
 }
 
 TEST_CASE("a cell with a comma or a quote stays one cell") {
@@ -282,7 +285,8 @@ TEST_CASE("a result is not ended in another folder than it began in") {
     out.begin();
     out.write_manifest({{"status", "running"}});
     fs::rename(path, place.path() / "moved");
-    CHECK_THROWS_AS(make_folder(out.file("pictures")), FileError);
+    CHECK_THROWS_AS(make_folder(out.file("pictures")), FolderGone);
+    CHECK_THROWS_AS(make_folder(path / "pictures"), FileError);
     CHECK_FALSE(fs::exists(path));
     CHECK_THROWS_AS(out.write_manifest({{"status", "complete"}}), FileError);
     fs::create_directory(path); // a new one of the same name is another all the same
@@ -291,17 +295,34 @@ TEST_CASE("a result is not ended in another folder than it began in") {
     CHECK(input::text_at(input::load_json((place.path() / "moved" / "manifest.json").string()), "status") == "running");
 }
 
-TEST_CASE("a member whose folder a series has cleared is held again, and by it alone") {
+TEST_CASE("a member's folder that its series clears stays with it, that of another goes") {
     const TemporaryFolder place;
-    fs::create_directories(place.path() / "out" / "ucs");
-    std::ofstream(place.path() / "out" / "ucs" / "manifest.json") << R"({"proveta_manifest": 1})";
-    std::ofstream(place.path() / "out" / "manifest.json") << R"({"proveta_series_manifest": 1, "members": [{"name": "ucs"}]})";
+    for (const char* name : {"ucs", "old"}) {
+        fs::create_directories(place.path() / "out" / name / "fields");
+        std::ofstream(place.path() / "out" / name / "manifest.json") << R"({"proveta_manifest": 1})";
+    }
+    std::ofstream(place.path() / "out" / "manifest.json")
+        << R"({"proveta_series_manifest": 1, "members": [{"name": "ucs"}, {"name": "old"}]})";
     OutputFolder series(place.path() / "out");
     OutputFolder member(place.path() / "out" / "ucs");
-    series.begin();
+    series.begin({"ucs"});
+    CHECK_FALSE(fs::exists(place.path() / "out" / "old"));
+    CHECK(fs::is_empty(place.path() / "out" / "ucs"));
     member.begin();
     member.write_manifest({{"status", "running"}});
     CHECK_THROWS_AS(OutputFolder(place.path() / "out" / "ucs"), input::InputError);
+}
+
+TEST_CASE("what others put in the place of a claimed folder is not cleared") {
+    const TemporaryFolder place;
+    OutputFolder out(place.path() / "out");
+    fs::rename(place.path() / "out", place.path() / "moved");
+    fs::create_directories(place.path() / "out" / "pictures");
+    std::ofstream(place.path() / "out" / "curve.csv") << "x";
+    CHECK_THROWS_AS(out.begin(), FolderGone);
+    CHECK_THROWS_AS(out.file("curve.csv"), FolderGone);
+    CHECK(fs::exists(place.path() / "out" / "pictures"));
+    CHECK(fs::exists(place.path() / "out" / "curve.csv"));
 }
 
 TEST_CASE("names of members are names of folders that are none of the results' own files") {
