@@ -188,6 +188,9 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
         refuse("which holds other files", "a new or empty folder, or one with an earlier result to replace");
     }
     lock_ = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0 && (errno == ENOENT || errno == ENOTDIR)) {
+        throw FolderGone(path.string() + " has been moved or removed");
+    }
     // A file system without locks is no reason to refuse.
     if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(lock_);
@@ -212,11 +215,11 @@ void OutputFolder::take_away() const {
 }
 
 OutputFolder::~OutputFolder() {
+    if (!begun_ && still_there()) {
+        take_away();
+    }
     if (lock_ >= 0) {
         close(lock_);
-    }
-    if (!begun_) {
-        take_away();
     }
 }
 
@@ -251,6 +254,7 @@ std::string OutputFolder::file(const std::string& name) const {
 }
 
 void OutputFolder::go_on() {
+    (void)file("");
     begun_ = true;
     remove_halves(path_);
 }

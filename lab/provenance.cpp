@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -117,9 +118,20 @@ input::Json manifest_to_go_on_with(const std::string& file, const input::Json& f
     return j;
 }
 
+input::Json with_beginning_of(const std::string& file, input::Json fresh) {
+    std::ifstream in(file);
+    const input::Json there = in ? input::Json::parse(in, nullptr, false) : input::Json();
+    for (const char* key : {"command", "started"}) {
+        if (there.is_object() && there.contains(key)) {
+            fresh[key] = there[key];
+        }
+    }
+    return fresh;
+}
+
 namespace {
 
-// Files of specimens in the decks of a manifest. They are read again, and refused when they have changed.
+// Files of specimens in the decks of a manifest.
 std::set<std::string> stored_specimens(const input::Json& json) {
     std::set<std::string> out;
     for (const auto& [key, value] : json.items()) {
@@ -134,6 +146,17 @@ std::set<std::string> stored_specimens(const input::Json& json) {
 
 } // namespace
 
+std::vector<std::string> changed_specimens(const input::Json& manifest) {
+    std::vector<std::string> out;
+    for (const auto& file : stored_specimens(manifest)) {
+        const std::string then = manifest.contains("files") ? input::text_at(manifest["files"], file.c_str()) : "";
+        if (!then.empty() && then != hash_of_file(file)) {
+            out.push_back(file);
+        }
+    }
+    return out;
+}
+
 std::vector<std::string> changes_since(const input::Json& manifest) {
     std::vector<std::string> out;
     const auto compare = [&](const char* key, const std::string& now, const char* consequence) {
@@ -146,10 +169,11 @@ std::vector<std::string> changes_since(const input::Json& manifest) {
     compare("compiler", PROVETA_COMPILER, rounding);
     compare("build", PROVETA_BUILD, rounding);
     if (manifest.contains("files") && manifest["files"].is_object()) {
-        const auto specimens = stored_specimens(manifest);
+        const auto specimens = changed_specimens(manifest);
         for (const auto& [file, hash] : manifest["files"].items()) {
             const std::string now = hash_of_file(file);
-            if (hash.is_string() && now != hash.get<std::string>() && !specimens.contains(file)) {
+            if (hash.is_string() && now != hash.get<std::string>() &&
+                std::find(specimens.begin(), specimens.end(), file) == specimens.end()) { // of which more is said
                 out.push_back(fmt::format("{} {} since the test began; it goes on with what it began with", file,
                                           now.empty() ? "has gone" : "has changed"));
             }

@@ -41,6 +41,13 @@ input::Json manifest(const Deck& deck, const Bench& bench, const std::string& co
 /// is noted.
 input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh, bool runs_on);
 
+/// A fresh manifest with the command and the start of that in a file, where it has them: of what is only reported.
+input::Json with_beginning_of(const std::string& file, input::Json fresh);
+
+/// Files of specimens in the decks of a manifest that have changed, or gone, since it was written. They are read again, so that nothing can
+/// go on with them.
+std::vector<std::string> changed_specimens(const input::Json& manifest);
+
 /// What is different now from when a manifest was written, a sentence each: the program, and files that the test was read from. The test
 /// goes on with what the manifest says all the same.
 std::vector<std::string> changes_since(const input::Json& manifest);

@@ -87,14 +87,16 @@ std::string progress_line(const Bench& bench, const TestData& data, double done,
                        rate, 100.0 * done, Progress::duration(seconds * (1.0 / std::max(done, 1e-9) - 1.0)));
 }
 
-// Has a test kept, every so many seconds and where it must be, and restored if it is to go on.
-void attach(Keeper& keeper, TestHooks& hooks, bool go_on) {
-    hooks.keep = [&keeper](const VisitState& state, bool must) {
-        if (must || keeper.due()) {
-            keeper.save(state);
-        }
-    };
-    if (go_on && keeper.there()) {
+// Has a test kept, every so many seconds and where it must be, unless it is only reported, and restored if it is to go on.
+void attach(Keeper& keeper, TestHooks& hooks, Passage passage) {
+    if (passage != Passage::report) {
+        hooks.keep = [&keeper](const VisitState& state, bool must) {
+            if (must || keeper.due()) {
+                keeper.save(state);
+            }
+        };
+    }
+    if (passage != Passage::begin && keeper.there()) {
         hooks.restore = [&keeper](const VisitState& state) { keeper.restore(state); };
     }
 }
@@ -172,7 +174,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     hooks.fields = [&] { series.write(bench, deck.output.pictures); };
     // Who only reports stops where the checkpoint was made.
     hooks.interrupted = passage == Passage::report ? [] { return true; } : +[] { return interrupted(); };
-    attach(keeper, hooks, go_on);
+    attach(keeper, hooks, passage);
     if (passage == Passage::report && !hooks.restore) {
         throw input::InputError({{out.path().string(), "", "no checkpoint", "a folder with one, from which a report can be made", ""}});
     }
@@ -189,7 +191,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
             }
         };
         again.interrupted = hooks.interrupted;
-        attach(of_check, again, go_on);
+        attach(of_check, again, passage);
         data.rate_check = check_rate(deck, bench.specimen, data.curve, again);
         data.interrupted = !data.rate_check && hooks.interrupted();
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -67,7 +68,7 @@ class XmlCheck {
             } else if (!format.empty() && format != "ascii") {
                 fail(fmt::format("the format {} is none of ascii, binary and appended", shown(format)));
             } else if (ends) {
-                check_last_number(tag.data);
+                check_numbers(tag.data);
             }
         }
     }
@@ -153,8 +154,10 @@ class XmlCheck {
         }
         if (compressed_) {
             check_blocks(b, *first, static_cast<double>(value_size));
-        } else if (const auto bytes = static_cast<std::size_t>(*first); ends && bytes >= value_size) {
-            check_end(number(b, word_ + (bytes / value_size - 1) * value_size, value_size).value_or(0.0));
+        } else if (ends) { // any may be the last that is read
+            for (std::size_t k = 0; k < static_cast<std::size_t>(*first) / value_size; ++k) {
+                check_end(number(b, word_ + k * value_size, value_size).value_or(0.0));
+            }
         }
     }
     void check_blocks(const Bytes& b, double blocks, double value_size) const {
@@ -177,16 +180,13 @@ class XmlCheck {
             }
         }
     }
-    // The last of the numbers that stand as text up to the next tag.
-    void check_last_number(std::size_t from) const {
-        const auto values = all_.substr(from, std::min(all_.find('<', from), all_.size()) - from);
-        const auto last = values.find_last_not_of(space);
-        if (last == std::string_view::npos) {
-            return;
-        }
-        const auto before = values.find_last_of(space, last);
-        if (double value = 0.0; parse(values.substr(before + 1, last - before), value)) { // of npos: from the first
-            check_end(value);
+    // The numbers that stand as text up to the next tag: any may be the last that is read.
+    void check_numbers(std::size_t from) const {
+        for (const auto word : solid_files::words_of(all_.substr(from, std::min(all_.find('<', from), all_.size()) - from))) {
+            double value = 0.0; // which may be followed by anything, where VTK's reader stops
+            if (std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc()) {
+                check_end(value);
+            }
         }
     }
     void check_end(double last) const {

@@ -12,6 +12,7 @@
 #include "lab/calibrate/calibrate_report.hpp"
 #include "lab/cli/commands.hpp"
 #include "lab/output_folder.hpp"
+#include "lab/provenance.hpp"
 #include "lab/trials/launch.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
@@ -98,9 +99,12 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     const auto targets = make_targets(plan);
     OutputFolder folder(out);
     catch_interrupts();
-    TrialBook book(out, a.elsewhere() ? BookMode::plan : BookMode::run, static_cast<std::size_t>(omp_get_max_threads()), a.quiet);
+    TrialBook book(out, a.mode(), static_cast<std::size_t>(omp_get_max_threads()), a.quiet, [&folder] { (void)folder.file(""); });
     a.report ? folder.go_on() : folder.begin(); // once nobody else has the book; trials stay
-    const auto write_manifest = [&](const char* status) { folder.write_manifest(calibration_manifest(plan, typed, status)); };
+    const auto write_manifest = [&](const char* status) {
+        auto sheet = calibration_manifest(plan, typed, status);
+        folder.write_manifest(a.report ? with_beginning_of(folder.file("manifest.json"), std::move(sheet)) : sheet);
+    };
     if (!a.report) { // which changes nothing before it has succeeded
         write_manifest("running");
     }
@@ -108,6 +112,9 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
         spdlog::info("{} trials are in the ledger and will not be repeated", book.known());
     }
     const auto keep_state = [&](const std::string& phase, const CalibrationOutcome& so_far) {
+        if (a.report) {
+            return;
+        }
         report::write_json(folder.file("progress.json"), state_of(phase, so_far, book.known()));
     };
     try {

@@ -8,6 +8,7 @@
 
 #include "lab/exit_codes.hpp"
 #include "lab/run.hpp"
+#include "lab/trials/book.hpp"
 
 namespace proveta {
 
@@ -57,7 +58,7 @@ struct TrialsArguments : RunArguments {
     bool collect = false;
     bool report = false; ///< all of it is there: only what is written at the end is written anew
 
-    [[nodiscard]] bool elsewhere() const { return plan || collect; } ///< trials are carried out by others
+    [[nodiscard]] BookMode mode() const { return report ? BookMode::report : plan || collect ? BookMode::plan : BookMode::run; }
 };
 
 /// Adds the file (what it is called, "sweep"), --threads, --out, --quiet, --status, --plan and --collect.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "lab/cli/commands.hpp"
 #include "lab/compare.hpp"
@@ -51,11 +52,15 @@ std::string aligned(const report::TextTable& table) {
 }
 
 // A result that is compared, or a series that holds it, is no earlier comparison to be replaced.
-void refuse_to_replace(const PlotArguments& a) {
+void refuse_to_replace(const PlotArguments& a, const std::vector<StoredResult>& tests) {
     namespace fs = std::filesystem;
     const fs::path out = fs::weakly_canonical(a.out);
     std::vector<input::Problem> problems;
-    for (const auto& folder : a.folders) {
+    std::set<std::string> folders(a.folders.begin(), a.folders.end());
+    for (const auto& test : tests) {
+        folders.insert(test.folder);
+    }
+    for (const auto& folder : folders) {
         const fs::path within = fs::weakly_canonical(folder).lexically_relative(out);
         if (!within.empty() && *within.begin() != "..") {
             problems.push_back({"--out", "", fmt::format("\"{}\", which {} \"{}\"", a.out, within == "." ? "is" : "holds", folder),
@@ -70,7 +75,7 @@ void refuse_to_replace(const PlotArguments& a) {
 int compare(const PlotArguments& a, const std::string& typed) {
     const auto tests = read_results(a.folders);
     const report::Record record = comparison(tests, a.x, a.y);
-    refuse_to_replace(a);
+    refuse_to_replace(a, tests);
     OutputFolder out(a.out);
     out.begin();
     report::write_file(out.file("comparison.csv"), report::to_csv(comparison_values(tests)));

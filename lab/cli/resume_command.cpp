@@ -47,10 +47,13 @@ int go_on_with(const ResumeArguments& a, const std::string& typed, const input::
                fmt::format("change what its report names as the cause: proveta {} {} --set KEY=VALUE --out NEW_FOLDER",
                            scene ? "scene" : "run", file));
     }
+    if (status == "cleared" && passage == Passage::report) {
+        refuse(a.folder, "a result that was being cleared", "one that is there", "proveta resume calculates it anew");
+    }
     for (const auto& change : changes_since(manifest)) {
         spdlog::warn("{}", change);
     }
-    if (status == "cleared" && passage == Passage::go_on) {
+    if (status == "cleared") {
         spdlog::warn("the run was stopped while it cleared an earlier result, which is calculated anew");
         passage = Passage::begin;
     }
@@ -85,6 +88,10 @@ int pass_through(const ResumeArguments& a, const std::string& typed, Passage pas
         refuse(a.folder, "one that has not ended", "a sweep or a calibration that is complete", "proveta resume goes on with it");
     }
     if (trialled) {
+        if (const auto changed = changed_specimens(manifest); !changed.empty()) {
+            refuse(changed.front(), "another file than the tests began with, or none", "the stored specimen as it was",
+                   "for tests of another specimen take another folder");
+        }
         for (const auto& change : changes_since(manifest)) {
             spdlog::warn("{}", change);
         }

@@ -15,7 +15,7 @@ namespace proveta {
 int carry_out_sweep(const TrialsArguments& a, const std::string& typed) {
     use_threads(a.threads);
     const Sweep sweep = read_sweep(a.file);
-    SweepOptions options{a.out, typed, a.threads, a.quiet, a.elsewhere() ? BookMode::plan : BookMode::run, a.report};
+    SweepOptions options{a.out, typed, a.threads, a.quiet, a.mode()};
     if (options.out.empty()) {
         options.out = fmt::format("results/{}-sweep", result_name(a.file, "manifest"));
     }

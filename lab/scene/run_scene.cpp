@@ -53,7 +53,9 @@ void log_start(const Model& m) {
 }
 
 // Writes all but the fields, the manifest last: who finds it complete finds all of it.
-void write_results(const Scene& scene, const ScenePlay& play, const SceneSeen& seen, const OutputFolder& out, Json& sheet) {
+// only_reported: the times of the calculation stay those of the manifest.
+void write_results(const Scene& scene, const ScenePlay& play, const SceneSeen& seen, const OutputFolder& out, Json& sheet,
+                   bool only_reported) {
     const report::Record record = scene_record(scene, play, seen);
     report::write_file(out.file("curve.csv"), report::to_csv(seen.curve));
     report::write_file(out.file("energy.csv"), report::to_csv(seen.energy));
@@ -63,8 +65,10 @@ void write_results(const Scene& scene, const ScenePlay& play, const SceneSeen& s
     const PhaseTimes& t = play.model().phase_times();
     sheet["status"] = seen.status;
     sheet["written"] = now_utc();
-    sheet["wall_time_s"] = seen.seconds;
-    sheet["phase_times_s"] = {{"search", t.search}, {"forces", t.forces}, {"motion", t.motion}};
+    if (!only_reported) {
+        sheet["wall_time_s"] = seen.seconds;
+        sheet["phase_times_s"] = {{"search", t.search}, {"forces", t.forces}, {"motion", t.motion}};
+    }
     out.write_manifest(sheet);
     fmt::print("{}results in {}\n", as_text(record), out.path().string());
 }
@@ -107,7 +111,7 @@ RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder
     }
     const SceneSeen seen = performance.go();
     progress.end_line();
-    write_results(scene, play, seen, out, sheet);
+    write_results(scene, play, seen, out, sheet, options.passage == Passage::report);
     if (seen.status == "interrupted") {
         spdlog::warn("interrupted; to go on: proveta resume {}", out.path().string());
     }

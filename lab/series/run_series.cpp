@@ -20,6 +20,7 @@
 #include "lab/series/workers.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
+#include "specimens/checkpoint.hpp"
 #include "specimens/memory.hpp"
 
 namespace proveta {
@@ -126,8 +127,11 @@ Specimens make_ready(const Plan& plan, Board& board) {
 MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const RunOptions& options, const RunWatch& watch) {
     MemberResult result;
     result.member = &member;
-    if (options.passage == Passage::report && !std::filesystem::exists(folder.path() / "manifest.json")) {
-        return result; // it was not run
+    const auto sheet = folder.path() / "manifest.json";
+    if (const std::string file = (folder.path() / "checkpoint.h5").string();
+        options.passage == Passage::report && !std::filesystem::exists(file) && !std::filesystem::exists(earlier_checkpoint(file)) &&
+        (!std::filesystem::exists(sheet) || input::text_at(input::load_json(sheet.string()), "status") == "running")) {
+        return result; // it was not run, or not as far as its first checkpoint
     }
     try {
         Finished finished = carry_out(member.deck, std::move(specimen), folder, options.command, watch, options.passage);
@@ -211,6 +215,9 @@ void refuse_unread(const std::vector<MemberResult>& members) {
             throw FileError(m.member->name + ": " + m.stopped_by);
         }
         problems.insert(problems.end(), m.refused.begin(), m.refused.end());
+        if (m.status == "failed" && m.refused.empty()) {
+            throw std::runtime_error(m.member->name + ": " + m.stopped_by);
+        }
     }
     if (!problems.empty()) {
         throw input::InputError(problems);
@@ -232,7 +239,8 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
     Board board(plan, options.quiet);
     const Specimens specimens = make_ready(plan, board);
     const auto write_manifest = [&](const std::string& status) {
-        out.write_manifest(series_manifest(plan, specimens.hashes, options.command, status, started, folder));
+        auto sheet = series_manifest(plan, specimens.hashes, options.command, status, started, folder);
+        out.write_manifest(options.passage == Passage::report ? with_beginning_of(out.file("manifest.json"), std::move(sheet)) : sheet);
     };
     options.passage == Passage::begin ? out.begin(names) : out.go_on();
     if (options.passage != Passage::report) {
@@ -241,6 +249,9 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
     auto members = run_members(plan, specimens, folders, options, static_cast<std::size_t>(std::max(threads, 1)), board);
 
     if (options.passage == Passage::report) {
+        if (interrupted()) {
+            return RunStatus::interrupted;
+        }
         refuse_unread(members);
     }
     SeriesResults results = evaluate(std::move(members));

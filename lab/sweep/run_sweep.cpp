@@ -57,11 +57,15 @@ std::pair<RunStatus, std::string> write_results(const Sweep& sweep, const Output
 
 RunStatus run_sweep(const Sweep& sweep, const SweepOptions& options) {
     OutputFolder folder(options.out);
-    TrialBook book(options.out, options.mode, static_cast<std::size_t>(options.threads), options.quiet);
-    options.report ? folder.go_on() : folder.begin(); // once nobody else has the book
+    TrialBook book(options.out, options.mode, static_cast<std::size_t>(options.threads), options.quiet,
+                   [&folder] { (void)folder.file(""); });
+    options.mode == BookMode::report ? folder.go_on() : folder.begin(); // once nobody else has the book
     const std::string started = now_utc();
-    const auto write_manifest = [&](const std::string& status) { folder.write_manifest(manifest_of(sweep, options, status, started)); };
-    if (!options.report) { // which changes nothing before it has succeeded
+    const auto write_manifest = [&](const std::string& status) {
+        auto sheet = manifest_of(sweep, options, status, started);
+        folder.write_manifest(options.mode == BookMode::report ? with_beginning_of(folder.file("manifest.json"), std::move(sheet)) : sheet);
+    };
+    if (options.mode != BookMode::report) { // which changes nothing before it has succeeded
         write_manifest("running");
     }
     try {

@@ -16,7 +16,6 @@ struct SweepOptions {
     int threads = 0;     ///< 0: as OpenMP has
     bool quiet = false;
     BookMode mode = BookMode::run;
-    bool report = false; ///< only writes anew what is written at the end of a sweep that is complete
 };
 
 /// Carries out what the folder's ledger does not have yet, then writes table, sensitivities and report. Failed as a whole only when every

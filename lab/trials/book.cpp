@@ -80,9 +80,9 @@ std::vector<TrialResult> TrialBook::read(const fs::path& out) {
     return read_lines(out / ledger_name, good);
 }
 
-TrialBook::TrialBook(fs::path out, BookMode mode, std::size_t threads, bool quiet)
-    : folders_(std::move(out)), mode_(mode), threads_(threads > 0 ? threads : static_cast<std::size_t>(omp_get_max_threads())),
-      progress_(quiet) {
+TrialBook::TrialBook(fs::path out, BookMode mode, std::size_t threads, bool quiet, std::function<void()> look)
+    : folders_(std::move(out), std::move(look)), mode_(mode),
+      threads_(threads > 0 ? threads : static_cast<std::size_t>(omp_get_max_threads())), progress_(quiet) {
     const fs::path path = folders_.out() / ledger_name;
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     const auto refuse = [&](const std::string& found, const std::string& hint) {
@@ -205,13 +205,13 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
 bool TrialBook::holds(const std::string& key) const {
     const auto found = known_.find(key);
     const auto whole = [&](const JobResult& job) { return has_all_of(job, folders_.trial(key) / job.name); };
-    return found != known_.end() && !failed_by_machine_.contains(key) &&
+    return found != known_.end() && (mode_ != BookMode::run || !failed_by_machine_.contains(key)) &&
            std::all_of(found->second.jobs.begin(), found->second.jobs.end(), whole);
 }
 
-// Takes the results of jobs away that the machine made fail, once.
+// Takes the results of jobs away that the machine made fail, once, where they are carried out anew.
 void TrialBook::forget_failures(const std::string& key) {
-    if (failed_by_machine_.erase(key) == 0) {
+    if (mode_ != BookMode::run || failed_by_machine_.erase(key) == 0) {
         return;
     }
     for (const auto& job : known_.at(key).jobs) {
@@ -230,6 +230,10 @@ std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const st
         if (holds(trials[k].key) || !asked.insert(trials[k].key).second) {
             continue;
         }
+        if (mode_ == BookMode::report) {
+            missing.push_back(k);
+            continue;
+        }
         forget_failures(trials[k].key);
         progress_.show(fmt::format("{}: making specimens", what));
         if (!folders_.write(trials[k])) {
@@ -239,6 +243,11 @@ std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const st
         if (!complete(trials[k])) {
             missing.push_back(k);
         }
+    }
+    if (!missing.empty() && mode_ == BookMode::report) {
+        throw input::InputError(
+            {{folders_.out().string(), "", fmt::format("{} of {} trials not there, or without their curves", missing.size(), asked.size()),
+              "a folder with all of them, of this version of the program", "proveta resume carries them out"}});
     }
     if (!missing.empty() && mode_ == BookMode::plan) {
         std::vector<std::string> folders;

@@ -24,8 +24,9 @@ struct TrialResult {
 
 /// What to do with trials that have not been carried out yet.
 enum class BookMode {
-    run, ///< carry them out here, as processes
-    plan ///< write their folders, and say which they are
+    run,   ///< carry them out here, as processes
+    plan,  ///< write their folders, and say which they are
+    report ///< refuse: nothing is changed
 };
 
 /// Trials were planned and have to be carried out elsewhere before work can go on.
@@ -41,17 +42,18 @@ struct TrialsInterrupted : std::runtime_error {
 
 /// Keeps `ledger.jsonl` of a folder: a line of JSON for each trial as it ends. Opening it reads what an earlier process left, up to a line
 /// that it could not finish; a second process on the same folder is refused. Jobs that the machine made an earlier process fail are
-/// carried out once more when they are asked for.
+/// carried out here once more when they are asked for.
 class TrialBook {
   public:
-    /// threads: of all trials together; 0: as OpenMP has. Throws InputError when the folder is in use or its ledger is another thing.
-    TrialBook(std::filesystem::path out, BookMode mode, std::size_t threads, bool quiet);
+    /// threads: of all trials together; 0: as OpenMP has. look: see `TrialFolders`. Throws InputError when the folder is in use or its
+    /// ledger is another thing.
+    TrialBook(std::filesystem::path out, BookMode mode, std::size_t threads, bool quiet, std::function<void()> look = nullptr);
     ~TrialBook();
     TrialBook(const TrialBook&) = delete;
     TrialBook& operator=(const TrialBook&) = delete;
 
     /// The results of trials, in their order: from the ledger, or carried out now. what: shown meanwhile. Throws TrialsPlanned or
-    /// TrialsInterrupted.
+    /// TrialsInterrupted, and InputError for missing ones that are not to be carried out.
     std::vector<TrialResult> evaluate(std::vector<Trial> trials, const std::string& what);
 
     /// Trials in the ledger, those of other questions included.

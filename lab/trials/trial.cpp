@@ -83,10 +83,14 @@ Trial keyed(Trial trial) {
     return trial;
 }
 
-namespace {
+void TrialFolders::look() const {
+    if (look_) {
+        look_();
+    }
+}
 
-// False when the deck gives no specimen: then its job fails with the reason, and the other trials go on.
-bool make(const Json& deck, const fs::path& file) {
+// None when the deck gives no specimen: then its job fails with the reason, and the other trials go on.
+void TrialFolders::make_specimen(const Json& deck, const fs::path& file) const {
     std::optional<Specimen> specimen;
     try {
         const Deck read = read_deck(deck, "deck");
@@ -94,16 +98,15 @@ bool make(const Json& deck, const fs::path& file) {
     } catch (const FileError&) {
         throw;
     } catch (const std::exception&) {
-        return false;
+        return;
     }
+    look(); // it may have taken a while
     make_folder(file.parent_path());
     save_specimen(*specimen, file.string());
-    return true;
 }
 
-} // namespace
-
 bool TrialFolders::write(const Trial& t) const {
+    look();
     const fs::path folder = trial(t.key);
     make_folder(folder.parent_path());
     make_folder(folder);
@@ -116,10 +119,14 @@ bool TrialFolders::write(const Trial& t) const {
         if (made(deck)) {
             const std::string name = specimen_key(deck) + ".h5";
             const fs::path file = out_ / "specimens" / name;
-            if (fs::exists(file) || make(deck, file)) {
+            if (!fs::exists(file)) {
+                make_specimen(deck, file);
+            }
+            if (fs::exists(file)) {
                 deck["specimen"] = {{"file", "../../../specimens/" + name}};
             }
         }
+        look();
         make_folder(folder / job.name);
         report::write_json((folder / job.name / "deck.json").string(), deck);
         list.push_back({{"job", job.name}, {"test", job.test}});

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -61,7 +62,8 @@ Trial keyed(Trial trial);
 /// Where trials live.
 class TrialFolders {
   public:
-    explicit TrialFolders(std::filesystem::path out) : out_(std::move(out)) {}
+    /// look: is called before anything is written, and throws where that may not be; may be empty.
+    explicit TrialFolders(std::filesystem::path out, std::function<void()> look = nullptr) : out_(std::move(out)), look_(std::move(look)) {}
 
     [[nodiscard]] std::filesystem::path trial(const std::string& key) const { return out_ / "trials" / key; }
     [[nodiscard]] const std::filesystem::path& out() const { return out_; }
@@ -74,7 +76,11 @@ class TrialFolders {
     [[nodiscard]] std::vector<JobResult> finished(const std::string& key) const;
 
   private:
+    void make_specimen(const input::Json& deck, const std::filesystem::path& file) const;
+    void look() const;
+
     std::filesystem::path out_;
+    std::function<void()> look_;
 };
 
 /// Whether a job's folder has what its result speaks of: the curve of one that is complete.

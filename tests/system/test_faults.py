@@ -6,6 +6,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import time
 
 from case import FILES, main
 from reliable import BODY, Reliability
@@ -81,8 +82,10 @@ class Folders(Reliability):
     def test_a_folder_in_whose_place_another_result_is_put(self):
         self.assertEqual(self.run_program("run", self.small(), "--out", "other", "--quiet").returncode, 0)
         before = {p: p.read_bytes() for p in (self.folder / "other").rglob("*") if p.is_file()}
-        for until in ("", "checkpoint.h5"):  # before the test has begun, and in its midst
-            process = self.start("run", self.small(loading={"rate": "0.01 m/s"}), "--out", "gone", "--quiet", until="gone/" + until)
+        for until, spheres in (("", 20000), ("checkpoint.h5", 500)):  # before the test has begun, which takes seconds, and in its midst
+            deck = self.small(loading={"rate": "0.01 m/s"}, specimen={**BODY, "spheres": spheres})
+            process = self.start("run", deck, "--out", "gone", "--quiet", until="gone/" + until)
+            time.sleep(0.3)  # made is not yet claimed
             (self.folder / "gone").rename(self.folder / "vanished")
             (self.folder / "other").rename(self.folder / "gone")
             _, log = process.communicate(timeout=60)

@@ -105,7 +105,12 @@ class Reports(Reliability):
         (self.folder / "sweep.json").write_text(json.dumps(sweep(points=4)))
         small = calibration(search={"spheres": 1, "trials": 3, "batch": 3}, finish={"rounds": 0, "trials": 1}, confidence={"seeds": 0})
         (self.folder / "calibration.json").write_text(json.dumps(small))
-        for command, file in (("run", series), ("sweep", "sweep.json"), ("calibrate", "calibration.json")):
+        material = {"card": "custom", "density": 2500, "young_modulus": "5 MPa", "elasticity": "as-given", "contact_law": "hertz", "contact_restitution": 0.4, "mu_d": 0.4}
+        scene = self.deck({"scene": "beads", "materials": [{"name": "grain", "material": material}],
+                           "surfaces": [{"name": "floor", "shape": "plane", "size": ["0.3 m", "0.3 m"]}],
+                           "particles": [{"name": "beads", "size": "12 mm", "count": 50, "from": ["-60 mm", "-60 mm", "0.02 m"], "to": ["60 mm", "60 mm", "0.1 m"]}],
+                           "stop": {"time": 0.1}}, "scene.json")
+        for command, file in (("run", series), ("sweep", "sweep.json"), ("calibrate", "calibration.json"), ("scene", scene)):
             with self.subTest(command):
                 done = self.run_program(command, file, "--out", command, "--quiet")
                 self.assertEqual(done.returncode, 0, done.stderr)
@@ -132,7 +137,7 @@ class Reports(Reliability):
         deck = self.deck({"test": "ucs", "specimen": {**BODY, "seed": [1, 2]}, "output": {"fields": 0}})
         self.assertEqual(self.run_program("run", deck, "--out", "s", "--quiet").returncode, 0)
         before = self.snapshot("s")
-        for folders, out in ((["s"], "s"), (["s/seed_1", "s/seed_2"], "s"), (["s/seed_1", "s/seed_2"], "s/../s/seed_2/")):
+        for folders, out in ((["s"], "s"), (["s"], "s/seed_1"), (["s/seed_1", "s/seed_2"], "s"), (["s/seed_1", "s/seed_2"], "s/../s/seed_2/")):
             done = self.run_program("compare", *folders, "--out", out)
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertIn("a folder that the comparison may replace", done.stderr)

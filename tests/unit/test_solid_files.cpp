@@ -365,6 +365,8 @@ TEST_CASE("bad VTK files are refused with the reason") {
     says(xml(replaced(vtu, ">10<", ">24<")), "vtkQuadraticTetra");
     says(xml(replaced(vtu, ">0 0 0 1 0 0 0 1 0 0 0 1<", ">0 0 0 1 0 0 0 1 0 0 0<")), "cannot be read");
     says(xml(replaced(vtu, "0 0 0 1<", "0 0 0 nan<")), "bad.vtu");
+    says(xml(replaced(vtu, ">4<", ">300000000 4<")), "last offset is 300000000");
+    says(xml(replaced(vtu, ">4<", ">300000000x 4<")), "last offset is 300000000");
     says(xml(vtk), "cannot be read");
     says(legacy(vtu), "cannot be read");
 
