@@ -13,10 +13,11 @@ namespace proveta {
 Keeper::Keeper(const OutputFolder& out, const char* name, std::string owner, double every, VisitState extra)
     : out_(out), name_(name), owner_(std::move(owner)), every_(every), extra_(std::move(extra)) {}
 
-bool Keeper::there() const {
-    const std::string file = out_.file(name_);
+bool checkpoint_there(const std::string& file) {
     return std::filesystem::exists(file) || std::filesystem::exists(earlier_checkpoint(file));
 }
+
+bool Keeper::there() const { return checkpoint_there(out_.file(name_)); }
 
 void Keeper::save(const VisitState& state) {
     const std::lock_guard lock(file_libraries());

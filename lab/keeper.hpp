@@ -9,6 +9,9 @@
 
 namespace proveta {
 
+/// Whether there is a checkpoint of that name, or the one before it.
+bool checkpoint_there(const std::string& file);
+
 /// The checkpoints of one calculation in its folder: the last and the one before.
 class Keeper {
   public:

@@ -224,7 +224,7 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::begin(const std::vector<std::string>& members) {
-    (void)file(""); // it must be there still: what is cleared is the folder that was claimed
+    look(); // it must be there still: what is cleared is the folder that was claimed
     begun_ = true;
     auto manifest = own_manifest(path_);
     if (manifest.is_object()) { // who finds it now finds no whole result
@@ -245,16 +245,20 @@ void OutputFolder::begin(const std::vector<std::string>& members) {
 
 void OutputFolder::write_manifest(const input::Json& manifest) const { report::write_json(file("manifest.json"), manifest); }
 
-std::string OutputFolder::file(const std::string& name) const {
+void OutputFolder::look() const {
     if (!still_there()) {
         throw FolderGone(path_.string() + " is not the folder any more that this began in: it has been moved or removed; where it is now, "
                                           "go on with: proveta resume");
     }
+}
+
+std::string OutputFolder::file(const std::string& name) const {
+    look();
     return (path_ / name).string();
 }
 
 void OutputFolder::go_on() {
-    (void)file("");
+    look();
     begun_ = true;
     remove_halves(path_);
 }

@@ -39,11 +39,13 @@ class OutputFolder {
     /// Keeps the folder with all that an unfinished result has left there but halves of files.
     void go_on();
 
+    /// Throws FolderGone where the folder's path leads to another one now than that claimed, or to none: it was moved or removed, and what
+    /// was written into it went with it.
+    void look() const;
     /// Writes manifest.json. Throws FileError.
     void write_manifest(const input::Json& manifest) const;
 
-    /// The path of a file in it. Throws FolderGone where the folder's path leads to another one now than that claimed, or to none: it was
-    /// moved or removed, and what was written into it went with it.
+    /// The path of a file in it, which is about to be used: looks. Throws FolderGone.
     [[nodiscard]] std::string file(const std::string& name) const;
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -66,13 +68,13 @@ template <class Work> auto with_way_on(const OutputFolder& folder, const Work& w
     try {
         return work();
     } catch (const FileError& e) {
-        (void)folder.file("");
+        folder.look();
         throw way_on(e.what());
     } catch (const std::filesystem::filesystem_error& e) {
-        (void)folder.file("");
+        folder.look();
         throw way_on(e.path1().string() + ": " + e.code().message());
     } catch (...) {
-        (void)folder.file("");
+        folder.look();
         throw;
     }
 }

@@ -99,7 +99,7 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     const auto targets = make_targets(plan);
     OutputFolder folder(out);
     catch_interrupts();
-    TrialBook book(out, a.mode(), static_cast<std::size_t>(omp_get_max_threads()), a.quiet, [&folder] { (void)folder.file(""); });
+    TrialBook book(out, a.mode(), static_cast<std::size_t>(omp_get_max_threads()), a.quiet, [&folder] { folder.look(); });
     a.report ? folder.go_on() : folder.begin(); // once nobody else has the book; trials stay
     const auto write_manifest = [&](const char* status) {
         auto sheet = calibration_manifest(plan, typed, status);

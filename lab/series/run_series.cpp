@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/files/whole_file.hpp"
+#include "lab/keeper.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 #include "lab/series/expand.hpp"
@@ -20,7 +21,6 @@
 #include "lab/series/workers.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
-#include "specimens/checkpoint.hpp"
 #include "specimens/memory.hpp"
 
 namespace proveta {
@@ -124,14 +124,19 @@ Specimens make_ready(const Plan& plan, Board& board) {
     return out;
 }
 
+// What the manifest of a member's folder says; "" where there is none.
+std::string status_in(const std::filesystem::path& folder) {
+    const auto file = folder / "manifest.json";
+    return std::filesystem::exists(file) ? input::text_at(input::load_json(file.string()), "status") : "";
+}
+
 MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const RunOptions& options, const RunWatch& watch) {
     MemberResult result;
     result.member = &member;
-    const auto sheet = folder.path() / "manifest.json";
-    if (const std::string file = (folder.path() / "checkpoint.h5").string();
-        options.passage == Passage::report && !std::filesystem::exists(file) && !std::filesystem::exists(earlier_checkpoint(file)) &&
-        (!std::filesystem::exists(sheet) || input::text_at(input::load_json(sheet.string()), "status") == "running")) {
-        return result; // it was not run, or not as far as its first checkpoint
+    if (options.passage == Passage::report && !checkpoint_there((folder.path() / "checkpoint.h5").string())) {
+        if (const std::string status = status_in(folder.path()); status.empty() || status == "running") {
+            return result; // it was not run, or not as far as its first checkpoint
+        }
     }
     try {
         Finished finished = carry_out(member.deck, std::move(specimen), folder, options.command, watch, options.passage);
@@ -196,8 +201,7 @@ namespace {
 void refuse_failed(const Plan& plan, const OutputFolder& out) {
     std::vector<input::Problem> problems;
     for (const auto& member : plan.members) {
-        const auto file = out.path() / member.name / "manifest.json";
-        if (std::filesystem::exists(file) && input::text_at(input::load_json(file.string()), "status") == "failed") {
+        if (status_in(out.path() / member.name) == "failed") {
             problems.push_back({(out.path() / member.name).string(), "", "a calculation that failed", "one that was stopped or has ended",
                                 "the pages tell of the failure, and its checkpoint is from before"});
         }

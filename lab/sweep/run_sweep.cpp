@@ -57,8 +57,7 @@ std::pair<RunStatus, std::string> write_results(const Sweep& sweep, const Output
 
 RunStatus run_sweep(const Sweep& sweep, const SweepOptions& options) {
     OutputFolder folder(options.out);
-    TrialBook book(options.out, options.mode, static_cast<std::size_t>(options.threads), options.quiet,
-                   [&folder] { (void)folder.file(""); });
+    TrialBook book(options.out, options.mode, static_cast<std::size_t>(options.threads), options.quiet, [&folder] { folder.look(); });
     options.mode == BookMode::report ? folder.go_on() : folder.begin(); // once nobody else has the book
     const std::string started = now_utc();
     const auto write_manifest = [&](const std::string& status) {
