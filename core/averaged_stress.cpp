@@ -94,7 +94,7 @@ Vec3 principal_values(const Mat3& stress) {
     return solver.computeDirect(stress, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-double tension_use(double lowest, double sigma_f) { return std::max(-lowest, 0.0) / std::max(sigma_f, dempack::smallest); }
+double tension_use(double lowest, double sigma_f) { return std::max(-lowest, 0.0) / std::max(sigma_f, smallest); }
 
 // tau / (c + mu sigma) over the planes of Mohr's circle has its maximum t / sqrt(a^2 - (mu t)^2), a = c + mu s.
 double shear_use(const Vec3& principal, double cohesion, double mu) {
@@ -118,8 +118,8 @@ void averaged_criteria(const Bonds& b, const std::vector<Mat3>& stress, std::vec
     value.resize(b.size());
     shear_governs.assign(b.size(), 0);
     for (const auto& block : b.blocks) {
-        const BondLaw& law = b.laws[block.law];
-        if (law.criterion == Criterion::bond) {
+        const AveragedCriterion& criterion = b.groups[block.group].criterion;
+        if (criterion.kind == Criterion::bond) {
             continue;
         }
 #pragma omp parallel for schedule(static)
@@ -130,22 +130,22 @@ void averaged_criteria(const Bonds& b, const std::vector<Mat3>& stress, std::vec
             }
             const Mat3 mean = 0.5 * (stress[static_cast<std::size_t>(b.i[k])] + stress[static_cast<std::size_t>(b.j[k])]);
             const Vec3 principal = principal_values(mean);
-            const double tension = tension_use(principal[0], law.averaged_sigma_f);
-            const double shear = law.criterion == Criterion::mohr_coulomb ? shear_use(principal, law.averaged_tau_f, law.mu_s) : 0.0;
+            const double tension = tension_use(principal[0], criterion.sigma_f);
+            const double shear = criterion.kind == Criterion::mohr_coulomb ? shear_use(principal, criterion.tau_f, criterion.mu_s) : 0.0;
             value[k] = std::max(shear, tension);
             shear_governs[k] = shear > tension ? 1 : 0;
         }
     }
 }
 
-double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& law, FailureMode mode, double dt, Loads& loads) {
+double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondGroup& group, FailureMode mode, double dt, Loads& loads) {
     const auto i = static_cast<std::size_t>(b.i[bond]);
     const auto j = static_cast<std::size_t>(b.j[bond]);
     const Vec3 to = s.position.at(j) - s.position.at(i);
     const double d = to.norm();
     const Vec3 n = to / d;
     const double k_n = b.stiffness[bond];
-    double elongation = d - (b.length[bond] - b.plastic[bond]);
+    double elongation = d - (b.length[bond] - b.plastic()[bond]);
     double before = elongation - (s.velocity.at(j) - s.velocity.at(i)).dot(n) * dt;
     if (b.dilatation.active()) {
         elongation += b.dilatation.shift[bond];
@@ -154,7 +154,7 @@ double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& la
     const Vec3 slip = b.slip.at(bond);
     const Vec3 force = b.force.at(bond);
     const double work_n = 0.5 * k_n * std::max(elongation, 0.0) * std::max(before, 0.0);
-    double work = work_n + 0.5 * k_n * law.shear_ratio * slip.squaredNorm();
+    double work = work_n + 0.5 * k_n * group.shear_ratio() * slip.squaredNorm();
     Vec3 couple = Vec3::Zero();
     if (b.moments) {
         couple = b.couple.at(bond);
@@ -169,7 +169,17 @@ double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondLaw& la
     loads.add(j, force - left, (1.0 - b.share[bond]) * moment + couple);
     b.force.set(bond, left);
     b.slip.set(bond, Vec3::Zero());
-    (mode == FailureMode::tension ? b.damage_n : b.damage_t)[bond] = 1.0;
+    std::visit(
+        [&](const auto& c) {
+            using Law = LawOf<decltype(c)>;
+            typename Law::template State<double> state;
+            std::size_t k = 0;
+            Law::members(state, [&](const char*, double& x) { x = b.memory[k++][bond]; });
+            Law::fail(state, mode);
+            k = 0;
+            Law::members(state, [&](const char*, const double& x) { b.memory[k++][bond] = x; });
+        },
+        group.law);
     b.mode[bond] = static_cast<std::uint8_t>(mode);
     b.worn[bond] = 1;
     b.damage_work[bond] += work;

@@ -32,7 +32,7 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     mean_radius_ = mean_radius(spheres);
     skin_ = numerics_.skin * mean_radius_;
     reactions_.assign(walls.platens.size(), Vec3::Zero());
-    averaged_ = std::any_of(bonds.laws.begin(), bonds.laws.end(), [](const BondLaw& law) { return law.criterion != Criterion::bond; });
+    averaged_ = std::any_of(bonds.groups.begin(), bonds.groups.end(), [](const BondGroup& g) { return g.criterion.kind != Criterion::bond; });
     if (averaged_) {
         volume_ = tributary_volumes(spheres, bonds);
     }
@@ -109,7 +109,7 @@ std::uint64_t Model::state_hash() const {
             }
         }
     }
-    for (const auto* a : {&bonds.plastic, &bonds.damage_n, &bonds.damage_t, &bonds.damage_work}) {
+    for (const auto* a : {&bonds.memory[0], &bonds.memory[1], &bonds.memory[2], &bonds.damage_work}) {
         hash.mix(*a);
     }
     for (std::size_t k = 0; k < contacts.size(); ++k) {

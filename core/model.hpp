@@ -211,13 +211,16 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("mass_added_later", scaling_.added_later);
     field("searched_at", travel_.from);
     field("bond_slip", bonds.slip);
-    visit("bond_plastic", bonds.plastic);
-    visit("bond_damage_n", bonds.damage_n);
-    visit("bond_damage_t", bonds.damage_t);
+    for (std::size_t k = 0; k < bond_memory; ++k) {
+        visit("bond_" + bonds.memory_name(k), bonds.memory[k]);
+    }
     visit("bond_damage_work", bonds.damage_work);
     visit("bond_mode", bonds.mode);
     if (bonds.moments) {
         field("bond_rotation", bonds.rotation);
+    }
+    if (bonds.volumetric.active()) {
+        visit("volumetric_strain", bonds.volumetric.strain);
     }
     if (bonds.dilatation.active()) {
         visit("bond_shift", bonds.dilatation.shift);

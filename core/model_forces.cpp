@@ -61,6 +61,10 @@ void Model::forces(double elapsed, bool measure) {
     if (bonds.dilatation.active()) {
         average();
     }
+    if (bonds.volumetric.active() && steps_ % VolumetricStrain::every == 0) {
+        const auto& blocks = loads.blocks();
+        team_->run(blocks.size(), [&](std::size_t k) { measure_volumetric_strain(spheres, bonds, blocks[k].begin, blocks[k].end); });
+    }
     for (auto& body : walls.bodies) {
         const double before = body.solid.plastic();
         body.solid.forces(*team_);
@@ -133,15 +137,15 @@ void Model::fail_by_averaged_stress() {
     const auto single = sphere_stresses(spheres, bonds, contacts, walls, pressures, volume_);
     averaged_criteria(bonds, vicinity_stresses(bonds, single, volume_), averaged_value_, shear_governs_);
     for (const auto& block : bonds.blocks) {
-        const BondLaw& law = bonds.laws[block.law];
-        if (law.criterion == Criterion::bond) {
+        const BondGroup& group = bonds.groups[block.group];
+        if (group.criterion.kind == Criterion::bond) {
             continue;
         }
         for (std::uint32_t b = block.begin; b < block.end; ++b) {
             bonds.criterion[b] = std::min(averaged_value_[b], 1.0);
             if (bonds.mode[b] == 0 && averaged_value_[b] >= 1.0) {
                 const auto mode = shear_governs_[b] ? FailureMode::shear : FailureMode::tension;
-                ledger_.damage += fail_bond(spheres, bonds, b, law, mode, dt_, loads);
+                ledger_.damage += fail_bond(spheres, bonds, b, group, mode, dt_, loads);
                 failures_.push_back({b, mode});
                 ++broken_;
             }

@@ -65,9 +65,11 @@ report::Geometry bond_fields(const Bench& bench) {
     report::Geometry g;
     g.points = m.spheres.position;
     std::vector<double> damage;
-    for (std::size_t b = 0; b < m.bonds.size(); ++b) {
-        g.cells.push_back({m.bonds.i[b], m.bonds.j[b]});
-        damage.push_back(std::max(m.bonds.damage_n[b], m.bonds.damage_t[b]));
+    for (const auto& block : m.bonds.blocks) {
+        for (std::size_t b = block.begin; b < block.end; ++b) {
+            g.cells.push_back({m.bonds.i[b], m.bonds.j[b]});
+            damage.push_back(m.bonds.damage(b, m.bonds.groups[block.group]));
+        }
     }
     g.cell_arrays = {{"mode", 1, report::as_numbers(m.bonds.mode)},
                      {"damage", 1, damage},

@@ -170,10 +170,10 @@ void refuse_snap_back(const Bonds& bonds, const Deck& deck) {
         }
     };
     for (const auto& block : bonds.blocks) {
-        const BondLaw& law = bonds.laws[block.law];
-        for (auto b = block.begin; b < block.end; ++b) {
-            look(tension, bonds.length[b], law.sigma_f * bonds.area[b] / bonds.stiffness[b], law.opening_f);
-            look(shear, bonds.length[b], law.tau_f * bonds.area[b] / (law.shear_ratio * bonds.stiffness[b]), law.slip_f);
+        const auto* law = std::get_if<Dempack::Constants>(&bonds.groups[block.group].law);
+        for (auto b = block.begin; law != nullptr && b < block.end; ++b) {
+            look(tension, bonds.length[b], law->sigma_f * bonds.area[b] / bonds.stiffness[b], law->opening_f);
+            look(shear, bonds.length[b], law->tau_f * bonds.area[b] / (law->shear_ratio * bonds.stiffness[b]), law->slip_f);
         }
     }
     input::Problems problems;

@@ -216,8 +216,7 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
 double lowest_tensile_strain(const Bonds& bonds) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const auto& block : bonds.blocks) {
-        const BondLaw& law = bonds.laws[block.law];
-        const double strength = law.criterion == Criterion::bond ? law.sigma_f : law.averaged_sigma_f;
+        const double strength = bonds.groups[block.group].tensile_limit();
         for (auto b = block.begin; b < block.end; ++b) {
             lowest = std::min(lowest, strength * bonds.area[b] / (bonds.stiffness[b] * bonds.length[b]));
         }
@@ -239,7 +238,7 @@ ElasticGuess elastic_guess(const BenchView& bench) {
     }
     // The affine bound of an isotropic network whose bond areas fill space; k = k_t / k_n.
     const Material& m = model.materials.front();
-    const double k = bond_law(m).shear_ratio;
+    const double k = m.shear_ratio();
     return {m.normal_factor * m.young_modulus * (2.0 + 3.0 * k) / (4.0 + k), std::max((1.0 - k) / (4.0 + k), 0.0)};
 }
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <tuple>
 
 #include "core/input/suggest.hpp"
@@ -15,15 +17,131 @@ using input::at_least;
 using input::between;
 using input::Unit;
 
+namespace {
+
+// What laws declare, for a visitor of decks.
+struct LawVisitor {
+    using Unit = input::Unit;
+    static input::Bounds above(double low) { return input::above(low); }
+    static input::Bounds at_least(double low) { return input::at_least(low); }
+    static input::Bounds between(double low, double high) { return input::between(low, high); }
+
+    input::Visitor& to;
+
+    void number(const char* key, double& value, Unit unit, const input::Bounds& bounds, const char* meaning) {
+        to.number(key, value, unit, bounds, meaning);
+    }
+    template <std::size_t n>
+    void numbers(const char* key, double (&values)[n], Unit unit, const input::Bounds& bounds, const char* meaning) {
+        std::vector<double> list(std::begin(values), std::end(values));
+        to.numbers(key, list, n, unit, bounds, meaning);
+        std::copy(list.begin(), list.end(), values);
+    }
+};
+
+// The keys that laws declare, with the laws that have them.
+struct LawKeys {
+    using Unit = LawVisitor::Unit;
+    static input::Bounds above(double low) { return input::above(low); }
+    static input::Bounds at_least(double low) { return input::at_least(low); }
+    static input::Bounds between(double low, double high) { return input::between(low, high); }
+
+    std::map<std::string, std::vector<std::string>> laws;
+    std::string now;
+
+    template <class T> void number(const char* key, T&, Unit, const input::Bounds&, const char*) { laws[key].push_back(now); }
+    template <class T> void numbers(const char* key, T&, Unit, const input::Bounds&, const char*) { laws[key].push_back(now); }
+};
+
+const std::map<std::string, std::vector<std::string>>& law_keys() {
+    static const auto keys = [] {
+        LawKeys all;
+        for_each_bond_law([&](auto law) {
+            using Law = typename decltype(law)::type;
+            typename Law::Parameters p;
+            all.now = Law::name;
+            Law::declare(all, p);
+        });
+        return all.laws;
+    }();
+    return keys;
+}
+
+// Names the law in the meaning, for the reference and the schema; a key that an earlier law declared already is left to that one.
+struct LawReference : LawVisitor {
+    std::string law;
+
+    [[nodiscard]] std::string meaning_of(const char* key, const char* meaning) const {
+        const auto& laws = law_keys().at(key);
+        return fmt::format("law{} {}: {}", laws.size() > 1 ? "s" : "", fmt::join(laws, ", "), meaning);
+    }
+    [[nodiscard]] bool first(const char* key) const { return law_keys().at(key).front() == law; }
+    void number(const char* key, double& value, Unit unit, const input::Bounds& bounds, const char* meaning) {
+        if (first(key)) {
+            LawVisitor::number(key, value, unit, bounds, meaning_of(key, meaning).c_str());
+        }
+    }
+    template <std::size_t n>
+    void numbers(const char* key, double (&values)[n], Unit unit, const input::Bounds& bounds, const char* meaning) {
+        if (first(key)) {
+            LawVisitor::numbers(key, values, unit, bounds, meaning_of(key, meaning).c_str());
+        }
+    }
+};
+
+std::vector<input::Choice> law_choices() {
+    std::vector<input::Choice> out;
+    for_each_bond_law([&](auto law) { out.push_back({decltype(law)::type::name, decltype(law)::type::meaning}); });
+    return out;
+}
+
+// Gives the card the parameters of its law, which start from the law's defaults when it had another.
+void use_law(Card& c) {
+    for_each_bond_law([&](auto law) {
+        using Law = typename decltype(law)::type;
+        if (c.law == Law::name && !std::holds_alternative<typename Law::Parameters>(c.bond)) {
+            c.bond = typename Law::Parameters{};
+        }
+    });
+}
+
+void declare_law(input::Visitor& v, Card& c) {
+    if (v.wants_all()) {
+        for_each_bond_law([&](auto law) {
+            using Law = typename decltype(law)::type;
+            typename Law::Parameters p;
+            LawReference reference{{v}, Law::name};
+            Law::declare(reference, p);
+        });
+        return;
+    }
+    LawVisitor visitor{v};
+    std::visit([&](auto& p) { LawOf<decltype(p)>::declare(visitor, p); }, c.bond);
+    for (const auto& [key, laws] : law_keys()) {
+        if (std::find(laws.begin(), laws.end(), c.law) == laws.end()) {
+            v.refused(key.c_str(), fmt::format("it belongs to law {}; this card has law \"{}\"", fmt::join(laws, ", "), c.law).c_str());
+        }
+    }
+}
+
+void check_envelope(const double (&lcs)[3], const std::string& source, const std::string& path, input::Problems& problems) {
+    for (std::size_t k = 1; k < 3; ++k) {
+        if (lcs[k] <= lcs[k - 1]) {
+            problems.push_back({source, path + "/lcs", fmt::format("LCS{} = {:.4g} Pa after LCS{} = {:.4g} Pa", k + 1, lcs[k], k, lcs[k - 1]),
+                                "three ascending stresses", "the envelope has its corners in this order"});
+        }
+    }
+}
+
+} // namespace
+
 void declare(input::Visitor& v, Card& c) {
     v.text("name", c.name, "name of the parameter set");
     v.text("about", c.about, "what it stands for");
     v.text("source", c.source, "where its numbers come from");
     v.text("status", c.status, "measured, published, provisional or user");
-    v.choice("law", c.law,
-             {{"dempack", "the thesis's bond: elasto-damage, elasto-plastic compression, friction after failure (5.2)"},
-              {"dempack_released", "the bond as the released DEMpack code computes it; for comparison with it"}},
-             "constitutive law of the bonds");
+    v.choice("law", c.law, law_choices(), "constitutive law of the bonds; with another law than the card's its parameters start from the law's defaults");
+    use_law(c);
     v.choice("criterion", c.criterion,
              {{"bond", "each bond's own normal and shear force (5.20-5.26)"},
               {"mohr_coulomb",
@@ -55,26 +173,10 @@ void declare(input::Visitor& v, Card& c) {
     v.number("averaged_factor", c.averaged_factor, Unit::none, at_least(0),
              "lambda / (a E0): averaged part of the stress, which raises nu beyond what bonds alone reach (Celigueta et al. 2017, from a "
              "potential); only as-given");
-    v.number("strength_factor", c.strength_factor, Unit::none, above(0), "factor on sigma_f, tau_f and the LCS");
-    v.number("sigma_f", c.sigma_f, Unit::pressure, at_least(0), "tensile strength of a bond (5.21)");
-    v.number("tau_f", c.tau_f, Unit::pressure, at_least(0), "shear strength of a bond without normal force (5.21)");
-    v.number("mu_s", c.mu_s, Unit::none, between(0, 10), "internal friction of an intact bond (5.21)");
+    v.number("strength_factor", c.strength_factor, Unit::none, above(0), "factor on the law's strengths: dempack sigma_f, tau_f and the LCS; facet tensile_strength, "
+             "compressive_yield_strength and transitional_stress");
+    declare_law(v, c);
     v.number("mu_d", c.mu_d, Unit::none, between(0, 10), "Coulomb friction after failure and of new contacts (5.2.5)");
-    v.number("softening_tension", c.softening_tension, Unit::none, between(1e-6, 1e6),
-             "length of the softening branch in tension over the limit displacement, u_f/u_l - 1 (5.24)");
-    v.number("softening_shear", c.softening_shear, Unit::none, between(1e-6, 1e6), "the same in shear (5.24)");
-    v.number(
-        "fracture_energy_tension", c.fracture_energy_tension, Unit::energy_per_area, at_least(0),
-        "fracture energy G_f of a bond in tension: straight softening to u_f = 2 G_f / sigma_f in place of softening_tension; 0: not used");
-    v.number("fracture_energy_shear", c.fracture_energy_shear, Unit::energy_per_area, at_least(0),
-             "the same in shear, G_s, without normal force; in place of softening_shear");
-    v.numbers("lcs", c.lcs, 3, Unit::pressure, above(0), "compressive stresses LCS1 to LCS3 where the envelope changes slope (5.28)");
-    v.numbers("yrc", c.yrc, 3, Unit::none, at_least(1), "ratios YRC1 to YRC3 of the initial slope to the slope beyond each LCS (5.28)");
-    v.number("yield_stress", c.yield_stress, Unit::pressure, at_least(0), "law dempack_released: beyond it unloading is straight");
-    v.number("plastic_modulus_ratio", c.plastic_modulus_ratio, Unit::none, between(0, 1),
-             "law dempack_released: E_p / E, slope of that unloading over the initial one");
-    v.number("shear_energy", c.shear_energy, Unit::none, at_least(0),
-             "law dempack_released: slip to failure past the shear limit over the displacement at the limit; 0: at once");
     v.number("bending_factor", c.bending_factor, Unit::none, between(0, 100),
              "bending stiffness of a bond over E I / d0 of the round beam of its area; 0: none, as in the thesis");
     v.number("twisting_factor", c.twisting_factor, Unit::none, between(0, 100), "the same for twisting, over G J / d0");
@@ -113,27 +215,11 @@ Material to_material(const Card& c) {
                   : c.area_rule == "truncated_cone" ? AreaRule::truncated_cone
                   : c.area_rule == "laguerre"       ? AreaRule::laguerre
                                                     : AreaRule::virtual_polyhedron;
-    m.bond.sigma_f = c.strength_factor * c.sigma_f;
-    m.bond.tau_f = c.strength_factor * c.tau_f;
-    m.bond.mu_s = c.mu_s;
-    m.bond.mu_d = c.mu_d;
-    m.bond.kind = c.law == "dempack_released" ? LawKind::released : LawKind::dempack;
-    m.bond.criterion = c.criterion == "mohr_coulomb" ? Criterion::mohr_coulomb
-                       : c.criterion == "rankine"    ? Criterion::rankine
-                                                     : Criterion::bond;
-    m.bond.yield_stress = c.strength_factor * c.yield_stress;
-    m.bond.plastic_ratio = c.plastic_modulus_ratio;
-    m.bond.shear_energy = c.shear_energy;
-    m.bond.bending = c.bending_factor;
-    m.bond.twisting = c.twisting_factor;
-    m.fracture_energy_n = c.fracture_energy_tension;
-    m.fracture_energy_t = c.fracture_energy_shear;
-    m.bond.softening_n = c.softening_tension;
-    m.bond.softening_t = c.softening_shear;
-    for (std::size_t k = 0; k < 3; ++k) {
-        m.bond.lcs[k] = c.strength_factor * c.lcs[k];
-        m.bond.yrc[k] = c.yrc[k];
-    }
+    m.bond = std::visit([&](const auto& p) -> BondParameters { return LawOf<decltype(p)>::scaled(p, c.strength_factor); }, c.bond);
+    m.mu_d = c.mu_d;
+    m.criterion = c.criterion == "mohr_coulomb" ? Criterion::mohr_coulomb : c.criterion == "rankine" ? Criterion::rankine : Criterion::bond;
+    m.bending = c.bending_factor;
+    m.twisting = c.twisting_factor;
     return m;
 }
 
@@ -154,30 +240,31 @@ void check_card(const Card& c, const std::string& source, const std::string& pat
         problems.push_back({source, path + "/poisson_ratio", fmt::format("{:.4g} with elasticity \"{}\"", c.poisson_ratio, c.elasticity),
                             "a specimen's ratio between -0.3 and 0.49", "or \"elasticity\": \"as-given\" for the bonds' own"});
     }
-    for (std::size_t k = 1; k < 3; ++k) {
-        if (c.lcs[k] <= c.lcs[k - 1]) {
-            problems.push_back({source, path + "/lcs",
-                                fmt::format("LCS{} = {:.4g} Pa after LCS{} = {:.4g} Pa", k + 1, c.lcs[k], k, c.lcs[k - 1]),
-                                "three ascending stresses", "the envelope has its corners in this order"});
-        }
-    }
-    const auto only_thesis = [&](bool used, const char* key, const std::string& found) {
-        if (used && c.law != "dempack") {
-            problems.push_back(
-                {source, path + "/" + key, found, "left out with law \"dempack_released\"", "the released code has no such thing"});
+    std::visit(
+        [&](const auto& p) {
+            if constexpr (requires { p.lcs; }) {
+                check_envelope(p.lcs, source, path, problems);
+            }
+        },
+        c.bond);
+    const auto only = [&](bool used, bool allowed, const char* key, const std::string& found, const char* why) {
+        if (used && !allowed) {
+            problems.push_back({source, path + "/" + key, found, "left out with law \"" + c.law + "\"", why});
         }
     };
-    only_thesis(c.criterion != "bond", "criterion", "\"" + c.criterion + "\"");
-    only_thesis(c.fracture_energy_tension > 0.0, "fracture_energy_tension", fmt::format("{:.4g} J/m2", c.fracture_energy_tension));
-    only_thesis(c.fracture_energy_shear > 0.0, "fracture_energy_shear", fmt::format("{:.4g} J/m2", c.fracture_energy_shear));
-    only_thesis(c.averaged_factor > 0.0, "averaged_factor", fmt::format("{}", c.averaged_factor));
-    only_thesis(c.elasticity == "calibrated", "elasticity", "\"calibrated\"");
-    only_thesis(c.bending_factor > 0.0, "bending_factor", fmt::format("{}", c.bending_factor));
-    if (c.criterion != "bond" && (c.fracture_energy_tension > 0.0 || c.fracture_energy_shear > 0.0)) {
+    const auto* dempack = std::get_if<Dempack::Parameters>(&c.bond);
+    only(c.criterion != "bond", dempack != nullptr, "criterion", "\"" + c.criterion + "\"",
+         "an averaged criterion takes its strengths from the law dempack");
+    const bool kratos = c.law == KratosDempack::name;
+    constexpr const char* no_such = "the released code has no such thing";
+    only(c.averaged_factor > 0.0, !kratos, "averaged_factor", fmt::format("{}", c.averaged_factor), no_such);
+    only(c.elasticity == "calibrated", !kratos, "elasticity", "\"calibrated\"", no_such);
+    only(c.bending_factor > 0.0, !kratos, "bending_factor", fmt::format("{}", c.bending_factor), no_such);
+    only(c.twisting_factor > 0.0, !kratos, "twisting_factor", fmt::format("{}", c.twisting_factor), no_such);
+    if (dempack != nullptr && c.criterion != "bond" && (dempack->fracture_energy_n > 0.0 || dempack->fracture_energy_t > 0.0)) {
         problems.push_back({source, path + "/criterion", "\"" + c.criterion + "\" together with a fracture energy", "one of the two",
                             "an averaged criterion fails bonds at once: set fracture_energy_tension and fracture_energy_shear to 0"});
     }
-    only_thesis(c.twisting_factor > 0.0, "twisting_factor", fmt::format("{}", c.twisting_factor));
 }
 
 namespace {

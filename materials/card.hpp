@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 #include "core/input/json.hpp"
 
 namespace proveta {
@@ -15,7 +15,7 @@ struct Card {
     std::string about;
     std::string source;
     std::string status = "user";
-    std::string law = "dempack";
+    std::string law = Dempack::name; ///< its parameters are `bond`
     std::string criterion = "bond";
     std::string area_rule = "virtual_polyhedron";
     input::NumberOrWord area_factor{1.0, ""};
@@ -27,19 +27,8 @@ struct Card {
     double shear_factor = 1.0;
     double averaged_factor = 0.0;
     double strength_factor = 1.0;
-    double sigma_f = 5.0e6;
-    double tau_f = 16.0e6;
-    double mu_s = 0.9;
+    BondParameters bond = Dempack::Parameters{}; ///< of the law
     double mu_d = 0.25;
-    double softening_tension = 0.2;
-    double softening_shear = 0.2;
-    double fracture_energy_tension = 0.0;
-    double fracture_energy_shear = 0.0;
-    std::vector<double> lcs{20.0e6, 45.0e6, 70.0e6};
-    std::vector<double> yrc{3.0, 12.0, 22.0};
-    double yield_stress = 20.0e6;
-    double plastic_modulus_ratio = 1.0;
-    double shear_energy = 1.0;
     double bending_factor = 0.0;
     double twisting_factor = 0.0;
     double local_damping = 0.0;
@@ -51,7 +40,7 @@ struct Card {
 
 void declare(input::Visitor& v, Card& card);
 
-/// The numbers of a card as the physics wants them; strength_factor multiplies sigma_f, tau_f and the LCS. An area_factor "auto" is left at
+/// The numbers of a card as the physics wants them; strength_factor multiplies the law's strengths. An area_factor "auto" is left at
 /// 1: only a specimen tells it.
 Material to_material(const Card& card);
 

@@ -28,8 +28,7 @@ Material grain_material(const FillingPlan& plan) {
     m.poisson_ratio = 0.25;
     m.contact_law = ContactLaw::hertz;
     m.contact_restitution = 0.2;
-    m.bond.mu_s = plan.friction;
-    m.bond.mu_d = plan.friction;
+    m.mu_d = plan.friction;
     return m;
 }
 

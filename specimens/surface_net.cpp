@@ -22,7 +22,7 @@ struct Flat {
 };
 
 // Delaunay triangulation of points in a plane, counterclockwise.
-std::vector<Facet> triangulate(const std::vector<Flat>& points) {
+std::vector<SurfaceTriangle> triangulate(const std::vector<Flat>& points) {
     vtkNew<vtkPoints> all;
     all->SetDataTypeToDouble();
     for (const auto& p : points) {
@@ -35,11 +35,11 @@ std::vector<Facet> triangulate(const std::vector<Flat>& points) {
     delaunay->SetTolerance(1e-9);
     delaunay->SetOffset(10.0); // a far bounding triangulation, so that no facet at the rim is missing
     delaunay->Update();
-    std::vector<Facet> facets;
+    std::vector<SurfaceTriangle> facets;
     vtkNew<vtkIdList> ids;
     auto* cells = delaunay->GetOutput()->GetPolys();
     for (cells->InitTraversal(); cells->GetNextCell(ids) != 0;) {
-        Facet f{};
+        SurfaceTriangle f{};
         for (std::size_t c = 0; c < 3; ++c) {
             f[c] = static_cast<std::uint32_t>(ids->GetId(static_cast<vtkIdType>(c)));
         }

@@ -14,7 +14,7 @@ struct SurfaceNet {
     std::vector<std::int32_t> sphere; ///< ascending
     std::vector<double> raise;        ///< m
     VectorField normal;               ///< of the true surface, outward
-    std::vector<Facet> facets;
+    std::vector<SurfaceTriangle> facets;
     double surface = 0.0; ///< true area that the net stands for, m2
 };
 

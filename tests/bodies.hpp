@@ -103,7 +103,7 @@ inline Material grain(ContactLaw law, double friction, double restitution, doubl
     m.contact_law = law;
     m.contact_restitution = restitution;
     m.rolling_friction = rolling;
-    m.bond.mu_d = friction;
+    m.mu_d = friction;
     return m;
 }
 
@@ -122,7 +122,7 @@ struct CouplingBench {
     Loads loads;
 
     CouplingBench(SolidMesh mesh, const Material& m, Coupling how, double side)
-        : body(rubber(std::move(mesh)), m, m.bond.mu_d, how, side), material{m} {
+        : body(rubber(std::move(mesh)), m, m.mu_d, how, side), material{m} {
         spheres.packed = false;
     }
     void list(double skin) { search_deformable(spheres, material, skin, body, team); }

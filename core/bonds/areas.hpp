@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 #include "core/contacts/cell_grid.hpp"
 #include "core/particles/spheres.hpp"
 

@@ -15,12 +15,14 @@ void prepare_bond_forces(Bonds& bonds, bool measure) {
 
 BondDissipation bond_forces(const SphereView& spheres, const Bonds& bonds, const BondView& view, std::size_t block, double* rows, double dt,
                             bool measure, std::vector<BondFailure>& failures) {
-    static const BondKernel kernel = pick_variant(bond_kernel_baseline, bond_kernel_avx2, bond_kernel_avx512);
+    static const BondKernel* const kernels = pick_variant(bond_kernels_baseline, bond_kernels_avx2, bond_kernels_avx512)();
     BondDissipation sum;
     for (auto r = bonds.first_block[block]; r < bonds.first_block[block + 1]; ++r) {
         const BondBlock& run = bonds.blocks[r];
         RunResult result;
-        kernel(spheres, view, bonds.laws[run.law], rows, run.begin, run.end, dt, measure, result);
+        const BondGroup& group = bonds.groups[run.group];
+        const void* constants = std::visit([](const auto& c) -> const void* { return &c; }, group.law);
+        kernels[group.law.index()](spheres, view, constants, group.beams, rows, run.begin, run.end, dt, measure, result);
         sum.damage += result.dissipation.damage;
         sum.plastic += result.dissipation.plastic;
         sum.friction += result.dissipation.friction;

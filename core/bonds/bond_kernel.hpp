@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/bonds/bond_law.hpp"
+#include "core/laws/bond_laws.hpp"
 #include "core/contacts/pair_kinematics.hpp"
 
 namespace proveta {
+
+constexpr std::size_t bond_memory = 3; ///< most numbers that a law keeps for a bond besides its slip
 
 /// Energy that left the bonds in one step, by mechanism, J.
 struct BondDissipation {
@@ -28,7 +30,8 @@ struct BondView {
     const std::int32_t *i, *j, *row_j;
     const double *length, *area, *stiffness, *share, *dashpot;
     double* slip[3];
-    double *plastic, *damage_n, *damage_t, *damage_work;
+    double* memory[bond_memory]; ///< what the laws remember, in the order of their `members`
+    double* damage_work;
     std::uint8_t *mode, *worn;
     std::uint32_t* failures; ///< one a bond
     double* force[3];        ///< this and the next only when measuring
@@ -36,16 +39,17 @@ struct BondView {
     double* rotation[3]; ///< only of bonds with moments
     double* couple[3];
     const double *shift, *shift_before; ///< of the elongation, by the averaged stress (dilatation.hpp); null: none
+    const double* volumetric;           ///< e_V of each sphere (volumetric_strain.hpp); null: no law asks for it
     bool damped;
 };
 
-/// Advances bonds begin to end, which share a law, by dt seconds, and adds their forces to the rows.
-using BondKernel = void (*)(const SphereView&, const BondView&, const BondLaw&, double* rows, std::size_t begin, std::size_t end, double dt,
-                            bool measure, RunResult&);
+/// Advances bonds begin to end, which share a law, by dt seconds, and adds their forces to the rows. law: its constants.
+using BondKernel = void (*)(const SphereView&, const BondView&, const void* law, const BondBeams&, double* rows, std::size_t begin,
+                            std::size_t end, double dt, bool measure, RunResult&);
 
-// The same source compiled for three instruction sets (core/CMakeLists.txt).
-void bond_kernel_baseline(const SphereView&, const BondView&, const BondLaw&, double*, std::size_t, std::size_t, double, bool, RunResult&);
-void bond_kernel_avx2(const SphereView&, const BondView&, const BondLaw&, double*, std::size_t, std::size_t, double, bool, RunResult&);
-void bond_kernel_avx512(const SphereView&, const BondView&, const BondLaw&, double*, std::size_t, std::size_t, double, bool, RunResult&);
+// The same source compiled for three instruction sets (core/CMakeLists.txt): the loop of each law, in the order of BondLaws.
+const BondKernel* bond_kernels_baseline();
+const BondKernel* bond_kernels_avx2();
+const BondKernel* bond_kernels_avx512();
 
 } // namespace proveta

@@ -2,25 +2,24 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/bonds/areas.hpp"
 #include "core/bonds/bond_kernel.hpp"
 #include "core/bonds/dilatation.hpp"
-#include "core/bonds/material.hpp"
+#include "core/bonds/volumetric_strain.hpp"
+#include "core/laws/material.hpp"
 #include "core/contacts/incidence.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
 
-/// How a bond failed. Kept for life.
-enum class FailureMode : std::uint8_t { intact = 0, tension = 1, shear = 2 };
-
 /// A run of bonds that share a material pair and whose first spheres are of one block of spheres (core/contacts/loads.hpp).
 struct BondBlock {
     std::uint32_t begin;
     std::uint32_t end;
-    std::uint32_t law; ///< index into Bonds::laws
+    std::uint32_t group; ///< index into Bonds::groups
 };
 
 /// Bonds of a specimen, sorted by the block of sphere i, then by material pair, then by i and j. One entry per bond; SI units.
@@ -33,17 +32,18 @@ struct Bonds {
     std::vector<double> stiffness;          ///< k_n, N/m
     std::vector<double> dashpot;            ///< c_n, N s/m
     VectorField slip;                       ///< u_t, elastic tangential displacement, m
-    std::vector<double> plastic;            ///< u_p, plastic shortening, m
-    std::vector<double> damage_n, damage_t; ///< 0 to 1
+    std::vector<double> memory[bond_memory]; ///< what the bonds' laws remember, in the order of their `members`: of each of them the first is
+                                             ///< u_p, plastic shortening, m, and the second the damage of an elongated bond, 0 to 1
     std::vector<double> damage_work;        ///< dissipated by damage and failure so far, J
     std::vector<std::uint8_t> mode;         ///< FailureMode
-    std::vector<std::uint8_t> worn;         ///< 0 as long as plastic shortening and damage are surely zero, so that they need not be read
+    std::vector<std::uint8_t> worn;         ///< 0 as long as the memory is surely zero, so that it need not be read
     std::vector<std::uint32_t> failures;    ///< scratch of the kernel
     Incidence incidence;                    ///< bonds of each sphere
     VectorField rotation;                   ///< theta of bonds with moments, rad; empty without
     VectorField couple;                     ///< moment of j on i of bonds with moments, N m; empty without
     Dilatation dilatation;                  ///< the averaged part of the stress, for Poisson's ratios that bonds alone do not reach
-    std::vector<BondLaw> laws;
+    VolumetricStrain volumetric;            ///< strain around spheres, for laws that look at it
+    std::vector<BondGroup> groups;          ///< one of each pair of materials
     std::vector<BondBlock> blocks;
     std::vector<std::uint32_t> first_block; ///< of each block of spheres, and the number of blocks
     bool damped = false;                    ///< some bond has a dashpot
@@ -57,6 +57,12 @@ struct Bonds {
     std::vector<double> stored;    ///< elastic energy, J
 
     [[nodiscard]] std::size_t size() const { return i.size(); }
+    /// u_p of each bond, m.
+    [[nodiscard]] const std::vector<double>& plastic() const { return memory[0]; }
+    /// Damage of a bond whatever its law, 0 intact to 1 failed.
+    [[nodiscard]] double damage(std::size_t bond, const BondGroup& group) const;
+    /// Name of memory k in checkpoints: what its laws call it.
+    [[nodiscard]] std::string memory_name(std::size_t k) const;
     void resize(std::size_t n);
     [[nodiscard]] BondView view();
 };

@@ -55,9 +55,9 @@ void measure_elongations(const Spheres& s, Bonds& b, std::size_t begin, std::siz
             b.length[k];
         d.following[k] = 0.0;
         if (b.worn[k] != 0) {
-            e += b.plastic[k];
+            e += b.memory[0][k];
             if (e + d.shift[k] > 0.0) { // of an elongation that damage has left the share 1 - d of its force
-                const double left = b.damage_n[k] >= 1.0 || b.damage_t[k] >= 1.0 ? 0.0 : 1.0 - b.damage_n[k];
+                const double left = b.mode[k] != 0 ? 0.0 : 1.0 - b.memory[1][k];
                 e *= left;
                 d.following[k] = 1.0 - left;
             }

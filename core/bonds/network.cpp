@@ -32,13 +32,42 @@ void Bonds::resize(std::size_t n) {
     i.resize(n);
     j.resize(n);
     mode.resize(n, 0);
-    for (auto* array : {&share, &length, &area, &stiffness, &dashpot, &plastic, &damage_n, &damage_t, &damage_work}) {
+    for (auto* array : {&share, &length, &area, &stiffness, &dashpot, &memory[0], &memory[1], &memory[2], &damage_work}) {
         array->resize(n, 0.0);
     }
     slip.resize(n);
     row_j.resize(n);
     worn.resize(n, 0);
     failures.resize(n);
+}
+
+double Bonds::damage(std::size_t bond, const BondGroup& group) const {
+    return std::visit(
+        [&](const auto& c) {
+            using Law = LawOf<decltype(c)>;
+            typename Law::template State<double> state;
+            std::size_t k = 0;
+            Law::members(state, [&](const char*, double& x) { x = memory[k++][bond]; });
+            return 1.0 - Law::intact(state);
+        },
+        group.law);
+}
+
+std::string Bonds::memory_name(std::size_t k) const {
+    std::string name;
+    for_each_bond_law([&](auto law) {
+        using Law = typename decltype(law)::type;
+        const bool used =
+            std::any_of(groups.begin(), groups.end(), [](const BondGroup& g) { return std::holds_alternative<typename Law::Constants>(g.law); });
+        typename Law::template State<double> state{};
+        std::size_t at = 0;
+        Law::members(state, [&](const char* own, double&) {
+            if (used && at++ == k && name.find(own) == std::string::npos) {
+                name += (name.empty() ? "" : "_or_") + std::string(own);
+            }
+        });
+    });
+    return name;
 }
 
 BondView Bonds::view() {
@@ -51,9 +80,7 @@ BondView Bonds::view() {
             share.data(),
             dashpot.data(),
             {slip.x.data(), slip.y.data(), slip.z.data()},
-            plastic.data(),
-            damage_n.data(),
-            damage_t.data(),
+            {memory[0].data(), memory[1].data(), memory[2].data()},
             damage_work.data(),
             mode.data(),
             worn.data(),
@@ -67,6 +94,7 @@ BondView Bonds::view() {
             {couple.x.data(), couple.y.data(), couple.z.data()},
             dilatation.active() ? dilatation.shift.data() : nullptr,
             dilatation.active() ? dilatation.shift_before.data() : nullptr,
+            volumetric.active() ? volumetric.strain.data() : nullptr,
             damped};
 }
 
@@ -113,7 +141,7 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
     struct PairLaw {
         Material material;
         const Areas* areas = nullptr;
-        std::uint32_t law = 0;
+        std::uint32_t group = 0;
     };
     const auto key = [&](const Pair& p) {
         return std::minmax({spheres.material[static_cast<std::size_t>(p.i)], spheres.material[static_cast<std::size_t>(p.j)]});
@@ -137,10 +165,10 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
             by_rule.emplace(rule, takes ? *given : effective_areas(rule, spheres, pairs, skin));
         }
         own.areas = &by_rule.at(rule);
-        own.law = static_cast<std::uint32_t>(b.laws.size());
-        b.laws.push_back(bond_law(own.material));
+        own.group = static_cast<std::uint32_t>(b.groups.size());
+        b.groups.push_back(bond_group(own.material));
         b.damped = b.damped || own.material.local_damping > 0.0;
-        b.moments = b.moments || own.material.bond.has_moments();
+        b.moments = b.moments || b.groups.back().beams.any();
         for (std::size_t s = 0; s < spheres.size(); ++s) {
             if (both.first == both.second && spheres.material[s] == both.first) {
                 weight[s] = own.material.area_factor * own.areas->weight[s];
@@ -149,7 +177,7 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
     }
 
     struct Entry {
-        std::uint32_t block, law;
+        std::uint32_t block, group;
         std::size_t pair;
     };
     std::vector<Entry> order;
@@ -157,11 +185,11 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const PairLaw& own = laws.at(key(pairs[k]));
         if (own.areas->pair[k] > 0.0) {
-            order.push_back({static_cast<std::uint32_t>(pairs[k].i) / spheres_per_block, own.law, k});
+            order.push_back({static_cast<std::uint32_t>(pairs[k].i) / spheres_per_block, own.group, k});
         }
     }
     std::sort(order.begin(), order.end(), [&](const Entry& x, const Entry& y) {
-        return std::tie(x.block, x.law, pairs[x.pair]) < std::tie(y.block, y.law, pairs[y.pair]);
+        return std::tie(x.block, x.group, pairs[x.pair]) < std::tie(y.block, y.group, pairs[y.pair]);
     });
     b.resize(order.size());
     for (std::size_t at = 0; at < order.size(); ++at) {
@@ -181,12 +209,12 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
         const double reduced = spheres.mass[i] * spheres.mass[j] / (spheres.mass[i] + spheres.mass[j]);
         b.dashpot[at] = 2.0 * m.local_damping * std::sqrt(reduced * b.stiffness[at]);
         b.share[at] = 0.5 * (d + spheres.radius[i] - spheres.radius[j]) / d;
-        const bool starts = at == 0 || order[at - 1].block != entry.block || order[at - 1].law != entry.law;
+        const bool starts = at == 0 || order[at - 1].block != entry.block || order[at - 1].group != entry.group;
         if (starts) {
             while (b.first_block.size() <= entry.block) {
                 b.first_block.push_back(static_cast<std::uint32_t>(b.blocks.size()));
             }
-            b.blocks.push_back({static_cast<std::uint32_t>(at), 0, entry.law});
+            b.blocks.push_back({static_cast<std::uint32_t>(at), 0, entry.group});
         }
         b.blocks.back().end = static_cast<std::uint32_t>(at + 1);
     }
@@ -202,6 +230,9 @@ Bonds make_bonds(const Spheres& spheres, const std::vector<Material>& materials,
         modulus[s] = m.averaged_factor * m.normal_factor * m.young_modulus;
     }
     set_dilatation(spheres, modulus, b);
+    if (std::any_of(b.groups.begin(), b.groups.end(), [](const BondGroup& g) { return g.volumetric; })) {
+        b.volumetric = volumetric_strain(spheres, b);
+    }
     return b;
 }
 

@@ -75,7 +75,7 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
             const Material& m = materials[material];
             LooseContact cap;
             cap.k_n = m.normal_factor * m.young_modulus * p.area_weight * spheres.section(s) / r;
-            cap.k_t = bond_law(m).shear_ratio * cap.k_n;
+            cap.k_t = m.shear_ratio() * cap.k_n;
             cap.friction = p.friction;
             cap.tension = p.bonded && p.capped[s] > 0.0;
             p.law.push_back(cap);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 #include "core/boundaries/wall_contact.hpp"
 #include "core/contacts/loads.hpp"
 #include "core/particles/spheres.hpp"

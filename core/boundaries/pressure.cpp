@@ -31,8 +31,8 @@ using Shares = std::array<double, 3>;
 // In proportion to sections, then moved for a moment that is that of the pressure: a facet's force -p a (a: area vector) that acts at d
 // beside its middle has the moment -p d x a. Shares that grow by b_c.m / l, with b_c the side across from corner c, l the longest side and
 // the same m for all facets, sum to one as before, change by |m| at most, and add -p 2/l (a.a m - (a.m) a): three equations for m.
-std::vector<Shares> balanced_shares(const Spheres& spheres, const Pressure& p, const std::vector<Facet>& facets) {
-    const auto sides = [&](const Facet& f) {
+std::vector<Shares> balanced_shares(const Spheres& spheres, const Pressure& p, const std::vector<SurfaceTriangle>& facets) {
+    const auto sides = [&](const SurfaceTriangle& f) {
         const std::array at = {corner(spheres, p, f[0]), corner(spheres, p, f[1]), corner(spheres, p, f[2])};
         return std::array<Vec3, 3>{at[2] - at[1], at[0] - at[2], at[1] - at[0]};
     };
@@ -72,7 +72,7 @@ std::vector<Shares> balanced_shares(const Spheres& spheres, const Pressure& p, c
 } // namespace
 
 Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const VectorField& normal,
-                       const std::vector<Facet>& facets, double surface) {
+                       const std::vector<SurfaceTriangle>& facets, double surface) {
     Pressure p;
     p.sphere = std::move(sphere);
     p.raise = std::move(raise);

@@ -14,7 +14,7 @@
 namespace proveta {
 
 /// Triangle of a surface: positions in the list of surface spheres, counterclockwise seen from outside.
-using Facet = std::array<std::uint32_t, 3>;
+using SurfaceTriangle = std::array<std::uint32_t, 3>;
 
 /// A pressure on a net of facets. Each facet's force -p A n, with its present area A and outward normal n, is shared out among its spheres
 /// nearly in proportion to their sections: a small sphere between large ones lies in their shelter. Such forces act beside the middles of
@@ -34,7 +34,7 @@ struct Pressure {
 /// A pressure on the given facets. spheres: the model's, at the start; sphere, raise: as in Pressure; normal: of the true surface, outward,
 /// one a sphere; surface: true area that the net stands for, m2. The net is rough: what counts is what it shows along those normals.
 Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere, std::vector<double> raise, const VectorField& normal,
-                       const std::vector<Facet>& facets, double surface);
+                       const std::vector<SurfaceTriangle>& facets, double surface);
 
 /// Adds the forces of the pressure on one block of spheres to the loads. `force` has one entry a sphere of the pressure. Returns the work
 /// done in the step of dt seconds, J.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/bonds/bonds.hpp"
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 #include "core/contacts/contact_kernel.hpp"
 #include "core/contacts/incidence.hpp"
 #include "core/contacts/loads.hpp"

@@ -35,12 +35,12 @@ LoosePair loose_pair(const Material& a, const Material& b) {
     p.tension = m.contact_tension;
     p.area_rule = m.area_rule;
     p.axial = m.normal_factor * m.young_modulus;
-    p.shear_ratio = bond_law(m).shear_ratio;
+    p.shear_ratio = m.shear_ratio();
     const auto compliance = [](const Material& x) { return (1.0 - x.poisson_ratio * x.poisson_ratio) / x.young_modulus; };
     p.young = 1.0 / (compliance(a) + compliance(b));
     p.shear = 1.0 / ((2.0 - a.poisson_ratio) / shear_modulus(a) + (2.0 - b.poisson_ratio) / shear_modulus(b));
     p.damping = damping_ratio(m);
-    p.friction = m.bond.mu_d;
+    p.friction = m.mu_d;
     p.rolling = m.rolling_friction;
     return p;
 }
@@ -48,7 +48,7 @@ LoosePair loose_pair(const Material& a, const Material& b) {
 LoosePair wall_pair(const Material& sphere, const Material& wall, double friction) {
     LoosePair p = loose_pair(sphere, wall);
     p.axial = 0.5 * (sphere.normal_factor + wall.normal_factor) * 2.0 / (1.0 / sphere.young_modulus + 1.0 / wall.young_modulus);
-    p.shear_ratio = bond_law(sphere).shear_ratio;
+    p.shear_ratio = sphere.shear_ratio();
     p.shear = shear_modulus(sphere) / (2.0 - sphere.poisson_ratio);
     p.friction = friction;
     return p;

@@ -1,7 +1,7 @@
 // One loose contact, whichever law it follows: its constants from two materials, one step of it, and how stiff it may become.
 #pragma once
 
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 #include "core/contacts/hertz_law.hpp"
 #include "core/contacts/linear_law.hpp"
 #include "core/contacts/loose_contact.hpp"

@@ -119,7 +119,7 @@ std::vector<std::uint32_t> laws_of(const Bonds& bonds) {
     std::vector<std::uint32_t> law(bonds.moments ? bonds.size() : 0);
     for (const auto& block : bonds.blocks) {
         for (auto b = block.begin; b < block.end && bonds.moments; ++b) {
-            law[b] = block.law;
+            law[b] = block.group;
         }
     }
     return law;
@@ -133,7 +133,7 @@ struct Springs {
         for (const auto& block : bonds.blocks) {
             for (auto b = block.begin; b < block.end; ++b) {
                 k_n[b] *= bonds.stiffness[b];
-                k_t[b] = bonds.laws[block.law].shear_ratio * bonds.stiffness[b];
+                k_t[b] = bonds.groups[block.group].shear_ratio() * bonds.stiffness[b];
             }
         }
     }
@@ -146,7 +146,7 @@ void add_bonds(const Spheres& s, const Bonds& bonds, const Springs& springs, con
     add_pairs(
         s, bonds,
         [&](std::size_t p, double d) {
-            if (bonds.mode[p] != 0 && d > bonds.length[p] - bonds.plastic[p] + skin) {
+            if (bonds.mode[p] != 0 && d > bonds.length[p] - bonds.plastic()[p] + skin) {
                 return Stiffness{0.0, 0.0, 0.0, 0.0};
             }
             return Stiffness{springs.k_n[p], springs.k_t[p], bonds.dashpot[p], 0.0};
@@ -155,7 +155,7 @@ void add_bonds(const Spheres& s, const Bonds& bonds, const Springs& springs, con
     for (auto e = bonds.incidence.offset[sphere]; bonds.moments && e < bonds.incidence.offset[sphere + 1]; ++e) {
         const auto b = bonds.incidence.entry[e] >> 1;
         const auto other = static_cast<std::size_t>((bonds.incidence.entry[e] & 1u) != 0 ? bonds.i[b] : bonds.j[b]);
-        const BondLaw& l = bonds.laws[law[b]];
+        const BondBeams& l = bonds.groups[law[b]].beams;
         block.add_moments((s.position.at(other) - s.position.at(sphere)).normalized(),
                           l.bending_stiffness(bonds.stiffness[b], bonds.area[b]), l.twisting_stiffness(bonds.stiffness[b], bonds.area[b]),
                           1.0 + g[other] / g[sphere]);

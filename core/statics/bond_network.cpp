@@ -23,9 +23,9 @@ template <int W, class B> Eigen::Matrix<double, 3, W> cross(const Vec3& a, const
 BondNetwork::BondNetwork(const Spheres& s, const Bonds& b, std::vector<Bearing> bearings, int threads)
     : position_(s.position), planar_(s.planar), bearings_(std::move(bearings)), offset_(b.incidence.offset),
       dilatation_(b.dilatation.stiffness), team_(std::make_unique<Team>(threads)) {
-    std::vector<std::uint32_t> law(b.size());
+    std::vector<std::uint32_t> group(b.size());
     for (const auto& block : b.blocks) {
-        std::fill(law.begin() + block.begin, law.begin() + block.end, block.law);
+        std::fill(group.begin() + block.begin, group.begin() + block.end, block.group);
     }
     sides_.resize(b.incidence.entry.size());
     for (std::size_t e = 0; e < sides_.size(); ++e) {
@@ -35,7 +35,7 @@ BondNetwork::BondNetwork(const Spheres& s, const Bonds& b, std::vector<Bearing> 
         const auto other = static_cast<std::size_t>(second ? b.i[k] : b.j[k]);
         const Vec3 to = s.position.at(other) - s.position.at(mine);
         const double d = to.norm();
-        const BondLaw& l = b.laws[law[k]];
+        const BondBeams& l = b.groups[group[k]].beams;
         const double share = second ? 1.0 - b.share[k] : b.share[k];
         Side& side = sides_[e];
         side = {static_cast<std::uint32_t>(other),

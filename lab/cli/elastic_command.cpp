@@ -36,7 +36,7 @@ void print(const Elasticity& e, const Specimen& specimen) {
     fmt::print("specimen             {}, {} spheres, {} bonds, {:.2f} a sphere\n", specimen.shape.text(), n.spheres.size(), n.bonds.size(),
                n.coordination);
     fmt::print("material             {}: a = {:.4f}, b = {:.4f}, k_t/k_n = {:.4f}, lambda/(a E) = {:.4f}\n", m.name, m.normal_factor,
-               m.shear_factor, bond_law(m).shear_ratio, m.averaged_factor);
+               m.shear_factor, m.shear_ratio(), m.averaged_factor);
     for (const auto& calibration : n.calibrations) {
         fmt::print("calibration          {} ({} solves)\n", text_of(calibration.result), calibration.result.solves);
     }
@@ -72,7 +72,7 @@ input::Json to_json(const Elasticity& e) {
                   {"normal_factor", m.normal_factor},
                   {"shear_factor", m.shear_factor},
                   {"averaged_factor", m.averaged_factor},
-                  {"shear_ratio", bond_law(m).shear_ratio},
+                  {"shear_ratio", m.shear_ratio()},
                   {"uniaxial_lubricated", uniaxial(e.lubricated)},
                   {"uniaxial_stuck", uniaxial(e.stuck)}};
     if (!e.network.calibrations.empty()) {

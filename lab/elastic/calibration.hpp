@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/bonds/bonds.hpp"
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 #include "specimens/shape.hpp"
 
 namespace proveta {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 #include "core/particles/clusters.hpp"
 #include "lab/scene/scene.hpp"
 

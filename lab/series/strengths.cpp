@@ -37,7 +37,9 @@ std::optional<StrengthEnvelope> envelope_of(const std::vector<MemberResult>& mem
             points.push_back({pressure_of(m), *strength});
             pressures.insert(pressure_of(m));
             const Card& card = m.member->deck.material.values;
-            bonds.insert({card.tau_f * card.strength_factor, card.mu_s});
+            if (const auto* law = std::get_if<Dempack::Parameters>(&card.bond)) {
+                bonds.insert({law->tau_f * card.strength_factor, law->mu_s});
+            }
         }
         if (const auto tensile = m.value("tensile_strength")) {
             points.push_back({-*tensile, 0.0});

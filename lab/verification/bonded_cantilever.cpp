@@ -27,8 +27,8 @@ Tip load(int n, const Vec3& force, const Vec3& torque) {
     m.poisson_ratio = poisson;
     m.shear_factor = kappa;
     m.area_rule = AreaRule::truncated_cone;
-    m.bond.bending = 1.0;
-    m.bond.twisting = 1.0 / kappa; // it stands on k_t, which has kappa in it
+    m.bending = 1.0;
+    m.twisting = 1.0 / kappa; // it stands on k_t, which has kappa in it
     Spheres s;
     std::vector<Pair> pairs;
     for (int k = 0; k <= n; ++k) {

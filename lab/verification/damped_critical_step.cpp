@@ -86,7 +86,7 @@ Outcome compute() {
         const double c = 2.0 * xi * std::sqrt(0.5 * mass * stiffness);
         const double normal = (-2.0 * c + std::sqrt(4.0 * c * c + 8.0 * stiffness * mass)) / (2.0 * stiffness);
         // Shear with rotation: k_t (2/m + 2 R^2/I) = 7 k_t / m for solid spheres.
-        const double shear = 2.0 / std::sqrt(7.0 * pair.bonds.laws[0].shear_ratio * stiffness / mass);
+        const double shear = 2.0 / std::sqrt(7.0 * pair.bonds.groups[0].shear_ratio() * stiffness / mass);
         const double lowest = std::min(normal, shear);
         const double found = measured_limit(m, normal, false);
         const double own = model_of(pair, m, 0.1 * lowest).stable_step();

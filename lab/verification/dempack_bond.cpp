@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "core/bonds/dempack_law.hpp"
+#include "core/laws/bond/dempack_law.hpp"
 #include "lab/verification/cases.hpp"
 
 namespace proveta::verification {
@@ -18,9 +18,9 @@ constexpr double tau = 16.0e6;
 
 // A bond that is moved to absolute places, with its work and dissipation on record and the largest distance from a closed form.
 struct Walk {
-    dempack::Parameters p;
-    dempack::State<double> s{{0, 0, 0}, 0, 0, 0};
-    dempack::Response<double> r{};
+    Dempack::Constants p;
+    Dempack::State<double> s{{0, 0, 0}, 0, 0, 0};
+    BondResponse<double> r{};
     double u = 0.0; // shortening
     double slip = 0.0;
     double work = 0.0;
@@ -45,7 +45,7 @@ struct Walk {
             const double dx = next_slip - slip;
             u = next;
             slip = next_slip;
-            r = dempack::advance<double>(p, k_n, area, {u, du, {dx, 0.0, 0.0}}, s);
+            r = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0}, {u, du, {dx, 0.0, 0.0}}, s);
             work += 0.5 * ((before.normal + r.normal) * du + (before.shear[0] + r.shear[0]) * dx);
             dissipated += r.damage_work + r.plastic_work + r.friction_work;
             if (normal) {
@@ -56,7 +56,7 @@ struct Walk {
             }
         }
     }
-    [[nodiscard]] double stored() const { return dempack::stored_energy<double>(p, k_n, u, r.normal, s); }
+    [[nodiscard]] double stored() const { return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s); }
 
     void keep(const char* name, const char* colour, bool in_shear) {
         if (curve.name.empty()) {

@@ -59,7 +59,7 @@ Model make_pendulum(double dt) {
     }
     std::vector<double> weight;
     Material m = kind.material();
-    m.bond.mu_d = 0.0; // among spheres
+    m.mu_d = 0.0; // among spheres
     Bonds none = make_bonds(s, {m}, {}, std::vector<std::uint8_t>(s.size(), 0), weight);
     Numerics numerics;
     numerics.damping = {0.0, 0.0};

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/bonds/bond_law.hpp"
+#include "core/laws/bond_laws.hpp"
 #include "lab/verification/cases.hpp"
 
 namespace proveta::verification {
@@ -14,15 +14,14 @@ namespace proveta::verification {
 namespace released_law_case {
 
 struct Pair {
-    BondLaw law;
+    KratosDempack::Constants law;
     double length = 2.0;
     double area = std::numbers::pi;
-    released::State<double> state{{0, 0, 0}, 0, 0, 0};
-    dempack::Response<double> response{};
+    KratosDempack::State<double> state{{0, 0, 0}, 0, 0, 0};
+    BondResponse<double> response{};
     double shortening = 0.0;
 
     explicit Pair(double distance) : length(distance) {
-        law.kind = LawKind::released;
         law.shear_ratio = 1.0 / 2.4;
         law.sigma_f = 1e6;
         law.tau_f = 0.5e6;
@@ -36,7 +35,7 @@ struct Pair {
     [[nodiscard]] double k_n() const { return 1e9 * area / length; }
     void move(double approach, double slip) {
         shortening += approach;
-        response = released::advance<double>(law, k_n(), area, {shortening, approach, {slip, 0, 0}}, state);
+        response = KratosDempack::advance<double>(law, {k_n(), area, length, 0.0}, {shortening, approach, {slip, 0, 0}}, state);
     }
 };
 

@@ -29,11 +29,11 @@ struct Balance {
 Balance follow(const Motion& motion) {
     Material m;
     m.local_damping = motion.damping;
-    m.bond.tau_f = motion.tau_f;
-    m.bond.mu_s = 0.3;
-    m.bond.bending = m.bond.twisting = motion.bending;
-    m.fracture_energy_n = motion.fracture_energy;
-    m.fracture_energy_t = 50.0 * motion.fracture_energy;
+    m.as<Dempack>().tau_f = motion.tau_f;
+    m.as<Dempack>().mu_s = 0.3;
+    m.bending = m.twisting = motion.bending;
+    m.as<Dempack>().fracture_energy_n = motion.fracture_energy;
+    m.as<Dempack>().fracture_energy_t = 50.0 * motion.fracture_energy;
     Spheres s;
     s.add({0, 0, 0}, 0.004, 2500.0);
     s.add({0.0078, 0.0006, -0.0003}, 0.005, 2500.0); // overlapping a little, in no special direction

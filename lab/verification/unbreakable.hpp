@@ -1,7 +1,7 @@
 // A material for cases and tests about everything but strength.
 #pragma once
 
-#include "core/bonds/material.hpp"
+#include "core/laws/material.hpp"
 
 namespace proveta::verification {
 
@@ -9,11 +9,12 @@ namespace proveta::verification {
 inline Material unbreakable(double young = 28.0e9) {
     Material m;
     m.young_modulus = young;
-    m.bond.sigma_f = 1e30;
-    m.bond.tau_f = 1e30;
-    m.bond.lcs[0] = 1e30;
-    m.bond.lcs[1] = 2e30;
-    m.bond.lcs[2] = 3e30;
+    auto& law = m.as<Dempack>();
+    law.sigma_f = 1e30;
+    law.tau_f = 1e30;
+    law.lcs[0] = 1e30;
+    law.lcs[1] = 2e30;
+    law.lcs[2] = 3e30;
     return m;
 }
 

@@ -13,9 +13,9 @@ namespace weak_equals_none_case {
 // Two spheres that touch at rest, driven apart for a little and then into each other at a slant, with spin: sticking, sliding, parting.
 std::vector<Vec3> path(bool bonded, double mu) {
     Material m = unbreakable(); // the loose law has no plastic branch
-    m.bond.sigma_f = 0.0;
-    m.bond.tau_f = 0.0;
-    m.bond.mu_d = mu;
+    m.as<Dempack>().sigma_f = 0.0;
+    m.as<Dempack>().tau_f = 0.0;
+    m.mu_d = mu;
     m.contact_restitution = 1.0; // nor the failed bond a dashpot
     Spheres s;
     s.add({0, 0, 0}, 0.01, 2500.0);

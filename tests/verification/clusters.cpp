@@ -123,7 +123,7 @@ TEST_CASE("clusters: one sphere as a cluster moves as a sphere") {
 
 TEST_CASE("clusters: an oblique impact of two dumbbells keeps momenta and energy") {
     Material m = soft();
-    m.bond.mu_d = 0.0;
+    m.mu_d = 0.0;
     Spheres s;
     s.add({0.0, 0.35, 0.02}, 0.05, m.density);
     Clusters c;

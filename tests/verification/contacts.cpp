@@ -24,7 +24,7 @@ Material loose(ContactLaw law) {
     Material m = unbreakable(1e7);
     m.contact_law = law;
     m.contact_restitution = 0.6;
-    m.bond.mu_d = 0.3;
+    m.mu_d = 0.3;
     m.rolling_friction = 0.02;
     return m;
 }

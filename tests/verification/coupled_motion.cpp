@@ -21,7 +21,7 @@ Material grain(double friction, double restitution) {
     m.contact_law = ContactLaw::hertz;
     m.contact_restitution = restitution;
     m.rolling_friction = friction > 0.0 ? 0.02 : 0.0;
-    m.bond.mu_d = friction;
+    m.mu_d = friction;
     return m;
 }
 
@@ -44,7 +44,7 @@ Deformable ground(BodyKind kind, Coupling how, const Material& surface, bool hel
             solid.holds.push_back({g.name, g.node, {true, true, true}, -1, Vec3::Zero(), Vec3::Zero()});
         }
     }
-    return {std::move(solid), surface, surface.bond.mu_d, how, 1.0};
+    return {std::move(solid), surface, surface.mu_d, how, 1.0};
 }
 
 Model model_of(Spheres s, std::vector<Deformable> bodies, const Material& m, Numerics numerics) {

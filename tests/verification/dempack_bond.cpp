@@ -4,12 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "core/bonds/dempack_law.hpp"
+#include "core/laws/bond/dempack_law.hpp"
 #include "specimens/random.hpp"
 
 using namespace proveta;
-using dempack::Kinematics;
-using dempack::State;
+template <class T> using State = Dempack::State<T>;
 
 namespace {
 
@@ -19,9 +18,9 @@ constexpr double exact = 1e-12; // a few roundings of quantities of order one
 
 // A bond that is moved about, with its work and dissipation on record.
 struct TestBond {
-    dempack::Parameters p;
+    Dempack::Constants p;
     State<double> s{{0, 0, 0}, 0, 0, 0};
-    dempack::Response<double> r{};
+    BondResponse<double> r{};
     double u = 0.0;      // shortening
     double work = 0.0;   // trapezoidal, of the force on the bond
     double volume = 0.0; // sum of |increments of work|
@@ -31,7 +30,7 @@ struct TestBond {
     void move(double du, double dx = 0.0, double dy = 0.0) {
         const auto before = r;
         u += du;
-        r = dempack::advance<double>(p, k_n, area, Kinematics<double>{u, du, {dx, dy, 0.0}}, s);
+        r = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0}, BondMotion<double>{u, du, {dx, dy, 0.0}}, s);
         const double w =
             0.5 * ((before.normal + r.normal) * du + (before.shear[0] + r.shear[0]) * dx + (before.shear[1] + r.shear[1]) * dy);
         work += w;
@@ -52,7 +51,7 @@ struct TestBond {
             move(0.0, dx / steps);
         }
     }
-    double stored() { return dempack::stored_energy<double>(p, k_n, u, r.normal, s); }
+    double stored() { return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s); }
     double k_t() const { return k_n * p.shear_ratio; }
 };
 
@@ -237,14 +236,14 @@ TEST_CASE("dempack-bond: a bond without strength fails at the first pull and div
 
 TEST_CASE("dempack-bond: a vector of bonds gives the bits of single bonds") {
     Random random(12, Stream::positions);
-    dempack::Parameters p;
+    Dempack::Constants p;
     constexpr auto n = lane_count<Lanes>();
     std::vector<State<double>> single(n, State<double>{{0, 0, 0}, 0, 0, 0});
     State<Lanes> many{{0.0, 0.0, 0.0}, 0.0, 0.0, 0.0};
     std::vector<double> u(n, 0.0);
     for (int step = 0; step < 2000; ++step) {
-        Kinematics<Lanes> kin{};
-        std::vector<dempack::Response<double>> r(n);
+        BondMotion<Lanes> kin{};
+        std::vector<BondResponse<double>> r(n);
         for (std::size_t k = 0; k < n; ++k) {
             const double du = (random.uniform() - 0.49) * 2e-6;
             const double dx = (random.uniform() - 0.5) * 4e-6;
@@ -254,9 +253,9 @@ TEST_CASE("dempack-bond: a vector of bonds gives the bits of single bonds") {
             kin.slip[0][k] = dx;
             kin.slip[1][k] = 0.5 * dx;
             kin.slip[2][k] = 0.0;
-            r[k] = dempack::advance<double>(p, k_n, area, Kinematics<double>{u[k], du, {dx, 0.5 * dx, 0.0}}, single[k]);
+            r[k] = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0}, BondMotion<double>{u[k], du, {dx, 0.5 * dx, 0.0}}, single[k]);
         }
-        const auto together = dempack::advance<Lanes>(p, Lanes(k_n), Lanes(area), kin, many);
+        const auto together = Dempack::advance<Lanes>(p, {Lanes(k_n), Lanes(area), Lanes(0.0), Lanes(0.0)}, kin, many);
         for (std::size_t k = 0; k < n; ++k) {
             REQUIRE(together.normal[k] == r[k].normal);
             REQUIRE(together.shear[0][k] == r[k].shear[0]);

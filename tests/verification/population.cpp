@@ -20,7 +20,7 @@ Material grain() {
     m.contact_law = ContactLaw::hertz;
     m.contact_restitution = 0.5;
     m.rolling_friction = 0.01;
-    m.bond.mu_d = 0.4;
+    m.mu_d = 0.4;
     return m;
 }
 

@@ -167,11 +167,11 @@ TEST_CASE("groups and materials: bonds stay within groups, pairs of materials ta
          "material": {"young_modulus": "7 GPa", "fracture_energy_tension": 0, "fracture_energy_shear": 0}}]})");
     const Bench bench = set_up(deck, make_specimen(deck.specimen));
     const Bonds& b = bench.model->bonds;
-    CHECK(b.laws.size() == 4); // lower, lower/middle, middle, and the top, which is a group of its own
-    const double strength = to_material(deck.material.values).bond.sigma_f;
-    const double weaker = to_material(deck.regions[0].material.values).bond.sigma_f;
-    CHECK(b.laws[0].sigma_f == strength);
-    CHECK(b.laws[1].sigma_f == weaker);
+    CHECK(b.groups.size() == 4); // lower, lower/middle, middle, and the top, which is a group of its own
+    const double strength = to_material(deck.material.values).as<Dempack>().sigma_f;
+    const double weaker = to_material(deck.regions[0].material.values).as<Dempack>().sigma_f;
+    CHECK(b.groups[0].tensile_limit() == strength);
+    CHECK(b.groups[1].tensile_limit() == weaker);
     std::size_t counted = 0;
     for (const auto& block : b.blocks) {
         counted += block.end - block.begin;

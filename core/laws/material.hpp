@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/bonds/bond_law.hpp"
 #include "core/contacts/loose_contact.hpp"
+#include "core/laws/bond_laws.hpp"
 
 namespace proveta {
 
@@ -29,21 +29,28 @@ struct Material {
     double contact_restitution = 0.2; ///< normal restitution of new contacts
     RestitutionRule restitution_rule = RestitutionRule::corrected;
     ContactLaw contact_law = ContactLaw::linear;
+    double mu_d = 0.25;            ///< Coulomb friction of failed bonds and of new contacts
     double rolling_friction = 0.0; ///< eta_r (2.42)
     bool contact_tension = false;  ///< loose contacts may pull: for comparison with closed forms only
     AreaRule area_rule = AreaRule::virtual_polyhedron;
-    double area_factor = 1.0;       ///< global alpha on the areas (5.4-5.6)
-    BondLaw bond;                   ///< `shear_ratio`, `opening_f` and `slip_f` are derived, see `bond_law`
-    double fracture_energy_n = 0.0; ///< G_f of the bonds in tension, J/m2; 0: softening by ratio
-    double fracture_energy_t = 0.0; ///< G_s, the same in shear
+    double area_factor = 1.0;                   ///< global alpha on the areas (5.4-5.6)
+    BondParameters bond = Dempack::Parameters{}; ///< law of the bonds
+    Criterion criterion = Criterion::bond;      ///< an averaged one takes its strengths from the law dempack
+    double bending = 0.0;                       ///< f_b
+    double twisting = 0.0;                      ///< f_t
+
+    /// k_t / k_n = b / (2 (1 + nu) a) (5.17).
+    [[nodiscard]] double shear_ratio() const { return shear_factor / (normal_factor * 2.0 * (1.0 + poisson_ratio)); }
+    /// Parameters of the law, which must be the one that the bonds have.
+    template <class Law> [[nodiscard]] typename Law::Parameters& as() { return std::get<typename Law::Parameters>(bond); }
+    template <class Law> [[nodiscard]] const typename Law::Parameters& as() const { return std::get<typename Law::Parameters>(bond); }
 };
 
-/// The law's parameters for bonds of one material: the card's, with k_t / k_n = b / (2 (1 + nu) a) (5.17) and, where fracture energies
-/// are given, u_f = 2 G_f / sigma_f and 2 G_s / tau_f. With an averaged criterion the law's own strengths are infinite.
-BondLaw bond_law(const Material& material);
+/// What bonds of one material obey. With an averaged criterion the law's own strengths are infinite.
+BondGroup bond_group(const Material& material);
 
-/// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest; of two contact
-/// laws or restitution rules the default one. Symmetric in a and b; of two equal materials it is that material.
+/// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest; of two laws, contact laws or
+/// restitution rules the first one. Symmetric in a and b; of two equal materials it is that material.
 Material equivalent(const Material& a, const Material& b);
 
 } // namespace proveta
