@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace proveta {
 
 namespace {
 
+constexpr double peak_fall = 0.95;    // of a peak, below which it counts as passed
+constexpr double elastic_loss = 0.01; // of the work, dissipated in an elastic part at most
 constexpr double capping = 0.1; // of a radius: what an end's grinding or cap would level out
 
 std::optional<double> last_of(const report::Table& t, const char* column) {
@@ -33,8 +36,46 @@ std::optional<double> peak_if_passed(const std::vector<double>& y) {
     if (y.empty()) {
         return std::nullopt;
     }
-    const double peak = y[peak_index(y)];
-    return y.back() < 0.95 * peak ? std::optional(peak) : std::nullopt;
+    const auto peak = std::max_element(y.begin(), y.end());
+    return *std::min_element(peak, y.end()) < peak_fall * *peak ? std::optional(*peak) : std::nullopt;
+}
+
+Loading until_recovery(const Loading& l) {
+    if (l.deviator.empty()) {
+        return l;
+    }
+    const double largest = l.deviator[peak_index(l.deviator)];
+    std::size_t peak = 0;
+    double lowest = l.deviator[0]; // since the peak
+    for (std::size_t k = 1; k < l.deviator.size(); ++k) {
+        lowest = std::min(lowest, l.deviator[k]);
+        if (l.deviator[k] > l.deviator[peak]) {
+            if (l.deviator[peak] >= 0.5 * largest && lowest < peak_fall * l.deviator[peak]) {
+                return first_samples(l, k);
+            }
+            peak = k;
+            lowest = l.deviator[k];
+        }
+    }
+    return l;
+}
+
+std::size_t elastic_samples(const Measured& m, const Loading& l) {
+    std::vector<std::vector<double>> lost;
+    for (const char* term : {"damage", "plastic", "friction"}) {
+        lost.push_back(m.energy.values(term));
+    }
+    const auto platens = m.energy.values("platens");
+    const auto pressure = m.energy.values("pressure");
+    std::size_t n = 0;
+    for (const auto row : l.row) {
+        const double work = std::fabs(platens[row] + pressure[row]);
+        if (row >= platens.size() || lost[0][row] + lost[1][row] + lost[2][row] > elastic_loss * work) {
+            break;
+        }
+        ++n;
+    }
+    return n;
 }
 
 std::vector<report::Scalar> elastic_results(const Loading& l) {

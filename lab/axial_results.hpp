@@ -25,6 +25,13 @@ std::vector<report::Scalar> energy_results(const Measured& measured);
 /// Peak of a list if the list has fallen 5 % below it since, or else empty.
 std::optional<double> peak_if_passed(const std::vector<double>& y);
 
+/// The loading up to where the deviator comes back to a peak from which it had fallen by 5 %, so that a specimen which breaks and then
+/// hardens again has the peak at which it broke. Peaks below half of the largest deviator are ripples of the beginning.
+Loading until_recovery(const Loading& loading);
+
+/// How many samples of the loading are elastic: until damage, plastic strain and sliding have taken a hundredth of the work.
+std::size_t elastic_samples(const Measured& measured, const Loading& loading);
+
 /// Stress over strain by platens, gauge and girth, the peak marked.
 PlotSpec stress_strain_plot(const std::string& title, const std::string& stress);
 

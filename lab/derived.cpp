@@ -113,4 +113,13 @@ Loading loading_of(const report::Table& curve, double sense) {
     return out;
 }
 
+Loading first_samples(const Loading& loading, std::size_t n) {
+    Loading out = loading;
+    out.row.resize(std::min(n, out.row.size()));
+    for (auto* of : {&out.strain, &out.gauge, &out.girth, &out.volume, &out.stress, &out.deviator}) {
+        of->resize(std::min(n, of->size()));
+    }
+    return out;
+}
+
 } // namespace proveta

@@ -53,4 +53,7 @@ constexpr double phase_preparing = 0.0;
 constexpr double phase_loading = 1.0;
 constexpr double phase_cycling = 2.0;
 
+/// The first n samples of a loading.
+Loading first_samples(const Loading& loading, std::size_t n);
+
 } // namespace proveta

@@ -19,6 +19,13 @@ struct MaterialCalibration {
     ElasticCalibration result;
 };
 
+/// Bonds of the law facet that are too long to release their fracture energy (docs/theory.md).
+struct LongBonds {
+    std::size_t count = 0;
+    double longest_allowed = 0.0; ///< m
+    double fewest_across = 0.0;   ///< mean sphere diameters in the specimen's smallest dimension; 0: no bond of that law
+};
+
 /// What is known of a network.
 struct NetworkFacts {
     double beta = 0.0;                     ///< interaction range used
@@ -26,6 +33,7 @@ struct NetworkFacts {
     std::optional<double> area_factor;     ///< alpha = 40 P / N_c, where a card leaves it to the specimen
     std::optional<LaguerreAreas> laguerre; ///< where a card's area rule wants it
     std::size_t dropped = 0;               ///< pairs within reach that are not bonded, because they share no facet
+    LongBonds long_bonds;
     std::vector<MaterialCalibration> calibrations;
 };
 

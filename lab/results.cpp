@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/input/units.hpp"
 #include "lab/citation.hpp"
 #include "lab/crack_report.hpp"
 #include "lab/derived.hpp"
@@ -16,6 +17,8 @@
 namespace proveta {
 
 namespace {
+
+constexpr double few_across = 8.0; // mean sphere diameters (docs/results.md, sizes)
 
 // What stands large at the head: of these, in this order, those that the test has.
 const std::vector<std::string> key_results{"friction_angle", "strength",        "splitting_strength", "tensile_strength",
@@ -59,6 +62,16 @@ std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, 
                                       "area belongs to pairs beyond reach; set bonding.coordination so that both are few.",
                                       bench.dropped, 100.0 * bench.laguerre->unbonded_share));
         }
+    }
+    if (const auto& l = bench.long_bonds; l.count > 0) {
+        out.push_back(fmt::format("{} of {} bonds are longer than {}, so that they tear with less than the card's fracture energy: smaller "
+                                  "spheres, or more tensile_characteristic_length.",
+                                  l.count, bench.model->bonds.size(), input::format_quantity(l.longest_allowed, input::Unit::length)));
+    }
+    if (bench.long_bonds.fewest_across > 0.0 && bench.long_bonds.fewest_across < few_across) {
+        out.push_back(fmt::format("The specimen is only {:.1f} mean spheres wide at its narrowest; strengths scatter, and hold from about "
+                                  "{:.0f} on.",
+                                  bench.long_bonds.fewest_across, few_across));
     }
     if (const std::string made = coupling_warning(data.energy); !made.empty()) {
         out.push_back(made);

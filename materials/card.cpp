@@ -127,7 +127,8 @@ void declare_law(input::Visitor& v, Card& c) {
 void check_envelope(const double (&lcs)[3], const std::string& source, const std::string& path, input::Problems& problems) {
     for (std::size_t k = 1; k < 3; ++k) {
         if (lcs[k] <= lcs[k - 1]) {
-            problems.push_back({source, path + "/lcs", fmt::format("LCS{} = {:.4g} Pa after LCS{} = {:.4g} Pa", k + 1, lcs[k], k, lcs[k - 1]),
+            problems.push_back({source, path + "/lcs",
+                                fmt::format("LCS{} = {:.4g} Pa after LCS{} = {:.4g} Pa", k + 1, lcs[k], k, lcs[k - 1]),
                                 "three ascending stresses", "the envelope has its corners in this order"});
         }
     }
@@ -140,7 +141,8 @@ void declare(input::Visitor& v, Card& c) {
     v.text("about", c.about, "what it stands for");
     v.text("source", c.source, "where its numbers come from");
     v.text("status", c.status, "measured, published, provisional or user");
-    v.choice("law", c.law, law_choices(), "constitutive law of the bonds; with another law than the card's its parameters start from the law's defaults");
+    v.choice("law", c.law, law_choices(),
+             "constitutive law of the bonds; with another law than the card's its parameters start from the law's defaults");
     use_law(c);
     v.choice("criterion", c.criterion,
              {{"bond", "each bond's own normal and shear force (5.20-5.26)"},
@@ -173,7 +175,8 @@ void declare(input::Visitor& v, Card& c) {
     v.number("averaged_factor", c.averaged_factor, Unit::none, at_least(0),
              "lambda / (a E0): averaged part of the stress, which raises nu beyond what bonds alone reach (Celigueta et al. 2017, from a "
              "potential); only as-given");
-    v.number("strength_factor", c.strength_factor, Unit::none, above(0), "factor on the law's strengths: dempack sigma_f, tau_f and the LCS; facet tensile_strength, "
+    v.number("strength_factor", c.strength_factor, Unit::none, above(0),
+             "factor on the law's strengths: dempack sigma_f, tau_f and the LCS; facet tensile_strength, "
              "compressive_yield_strength and transitional_stress");
     declare_law(v, c);
     v.number("mu_d", c.mu_d, Unit::none, between(0, 10), "Coulomb friction after failure and of new contacts (5.2.5)");

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/laws/material.hpp"
 #include "core/contacts/cell_grid.hpp"
+#include "core/laws/material.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {

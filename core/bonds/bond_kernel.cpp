@@ -205,9 +205,7 @@ void kernel(const SphereView& s, const BondView& bonds, const void* law, const B
 }
 
 template <class List> struct Kernels;
-template <class... Laws> struct Kernels<TypeList<Laws...>> {
-    static constexpr BondKernel each[] = {kernel<Laws>...};
-};
+template <class... Laws> struct Kernels<TypeList<Laws...>> { static constexpr BondKernel each[] = {kernel<Laws>...}; };
 
 } // namespace
 

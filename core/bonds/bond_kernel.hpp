@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/laws/bond_laws.hpp"
 #include "core/contacts/pair_kinematics.hpp"
+#include "core/laws/bond_laws.hpp"
 
 namespace proveta {
 

@@ -9,8 +9,8 @@
 #include "core/bonds/bond_kernel.hpp"
 #include "core/bonds/dilatation.hpp"
 #include "core/bonds/volumetric_strain.hpp"
-#include "core/laws/material.hpp"
 #include "core/contacts/incidence.hpp"
+#include "core/laws/material.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {
@@ -24,26 +24,26 @@ struct BondBlock {
 
 /// Bonds of a specimen, sorted by the block of sphere i, then by material pair, then by i and j. One entry per bond; SI units.
 struct Bonds {
-    std::vector<std::int32_t> i, j;         ///< the two spheres, i < j
-    std::vector<std::int32_t> row_j;        ///< row of the loads that j's share goes to
-    std::vector<double> share;              ///< lever arm of i over the distance, 0 to 1
-    std::vector<double> length;             ///< d0, distance at the start, m
-    std::vector<double> area;               ///< m2
-    std::vector<double> stiffness;          ///< k_n, N/m
-    std::vector<double> dashpot;            ///< c_n, N s/m
-    VectorField slip;                       ///< u_t, elastic tangential displacement, m
-    std::vector<double> memory[bond_memory]; ///< what the bonds' laws remember, in the order of their `members`: of each of them the first is
-                                             ///< u_p, plastic shortening, m, and the second the damage of an elongated bond, 0 to 1
-    std::vector<double> damage_work;        ///< dissipated by damage and failure so far, J
-    std::vector<std::uint8_t> mode;         ///< FailureMode
-    std::vector<std::uint8_t> worn;         ///< 0 as long as the memory is surely zero, so that it need not be read
-    std::vector<std::uint32_t> failures;    ///< scratch of the kernel
-    Incidence incidence;                    ///< bonds of each sphere
-    VectorField rotation;                   ///< theta of bonds with moments, rad; empty without
-    VectorField couple;                     ///< moment of j on i of bonds with moments, N m; empty without
-    Dilatation dilatation;                  ///< the averaged part of the stress, for Poisson's ratios that bonds alone do not reach
-    VolumetricStrain volumetric;            ///< strain around spheres, for laws that look at it
-    std::vector<BondGroup> groups;          ///< one of each pair of materials
+    std::vector<std::int32_t> i, j;          ///< the two spheres, i < j
+    std::vector<std::int32_t> row_j;         ///< row of the loads that j's share goes to
+    std::vector<double> share;               ///< lever arm of i over the distance, 0 to 1
+    std::vector<double> length;              ///< d0, distance at the start, m
+    std::vector<double> area;                ///< m2
+    std::vector<double> stiffness;           ///< k_n, N/m
+    std::vector<double> dashpot;             ///< c_n, N s/m
+    VectorField slip;                        ///< u_t, elastic tangential displacement, m
+    std::vector<double> memory[bond_memory]; ///< what the bonds' laws remember, in the order of their `members`: of each of them the first
+                                             ///< is u_p, plastic shortening, m, and the second the damage of an elongated bond, 0 to 1
+    std::vector<double> damage_work;     ///< dissipated by damage and failure so far, J
+    std::vector<std::uint8_t> mode;      ///< FailureMode
+    std::vector<std::uint8_t> worn;      ///< 0 as long as the memory is surely zero, so that it need not be read
+    std::vector<std::uint32_t> failures; ///< scratch of the kernel
+    Incidence incidence;                 ///< bonds of each sphere
+    VectorField rotation;                ///< theta of bonds with moments, rad; empty without
+    VectorField couple;                  ///< moment of j on i of bonds with moments, N m; empty without
+    Dilatation dilatation;               ///< the averaged part of the stress, for Poisson's ratios that bonds alone do not reach
+    VolumetricStrain volumetric;         ///< strain around spheres, for laws that look at it
+    std::vector<BondGroup> groups;       ///< one of each pair of materials
     std::vector<BondBlock> blocks;
     std::vector<std::uint32_t> first_block; ///< of each block of spheres, and the number of blocks
     bool damped = false;                    ///< some bond has a dashpot

@@ -57,8 +57,8 @@ std::string Bonds::memory_name(std::size_t k) const {
     std::string name;
     for_each_bond_law([&](auto law) {
         using Law = typename decltype(law)::type;
-        const bool used =
-            std::any_of(groups.begin(), groups.end(), [](const BondGroup& g) { return std::holds_alternative<typename Law::Constants>(g.law); });
+        const bool used = std::any_of(groups.begin(), groups.end(),
+                                      [](const BondGroup& g) { return std::holds_alternative<typename Law::Constants>(g.law); });
         typename Law::template State<double> state{};
         std::size_t at = 0;
         Law::members(state, [&](const char* own, double&) {

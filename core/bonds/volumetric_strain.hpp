@@ -15,8 +15,8 @@ struct Bonds;
 /// tension: e_V = sum A l e / (d V), V = sum A l, over its bonds with the lever arm l and the elongation of centres e.
 struct VolumetricStrain {
     static constexpr std::int64_t every = 50; ///< steps between two evaluations: pores collapse over thousands
-    std::vector<double> strain;              ///< of each sphere; empty: no law asks for it
-    std::vector<double> weight_i, weight_j;  ///< of each bond's elongation in e_V of its two spheres, 1/m
+    std::vector<double> strain;               ///< of each sphere; empty: no law asks for it
+    std::vector<double> weight_i, weight_j;   ///< of each bond's elongation in e_V of its two spheres, 1/m
 
     [[nodiscard]] bool active() const { return !strain.empty(); }
 };

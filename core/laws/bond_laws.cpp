@@ -70,8 +70,8 @@ KratosDempack::Parameters KratosDempack::scaled(Parameters p, double factor) {
 Facet::Parameters Facet::mix(const Parameters& a, const Parameters& b) {
     Parameters m = a;
     // Strengths, frictions and what holds them up: the lower; shapes of curves: the mean.
-    for (double Parameters::*weaker :
-         {&Parameters::sigma_t, &Parameters::length_t, &Parameters::shear_ratio_t, &Parameters::sigma_c0, &Parameters::mu_0, &Parameters::mu_inf}) {
+    for (double Parameters::*weaker : {&Parameters::sigma_t, &Parameters::length_t, &Parameters::shear_ratio_t, &Parameters::sigma_c0,
+                                       &Parameters::mu_0, &Parameters::mu_inf}) {
         m.*weaker = std::min(a.*weaker, b.*weaker);
     }
     for (double Parameters::*shape : {&Parameters::exponent, &Parameters::softening_s, &Parameters::first_length, &Parameters::tail,

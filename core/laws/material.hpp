@@ -33,11 +33,11 @@ struct Material {
     double rolling_friction = 0.0; ///< eta_r (2.42)
     bool contact_tension = false;  ///< loose contacts may pull: for comparison with closed forms only
     AreaRule area_rule = AreaRule::virtual_polyhedron;
-    double area_factor = 1.0;                   ///< global alpha on the areas (5.4-5.6)
+    double area_factor = 1.0;                    ///< global alpha on the areas (5.4-5.6)
     BondParameters bond = Dempack::Parameters{}; ///< law of the bonds
-    Criterion criterion = Criterion::bond;      ///< an averaged one takes its strengths from the law dempack
-    double bending = 0.0;                       ///< f_b
-    double twisting = 0.0;                      ///< f_t
+    Criterion criterion = Criterion::bond;       ///< an averaged one takes its strengths from the law dempack
+    double bending = 0.0;                        ///< f_b
+    double twisting = 0.0;                       ///< f_t
 
     /// k_t / k_n = b / (2 (1 + nu) a) (5.17).
     [[nodiscard]] double shear_ratio() const { return shear_factor / (normal_factor * 2.0 * (1.0 + poisson_ratio)); }
@@ -49,8 +49,8 @@ struct Material {
 /// What bonds of one material obey. With an averaged criterion the law's own strengths are infinite.
 BondGroup bond_group(const Material& material);
 
-/// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest; of two laws, contact laws or
-/// restitution rules the first one. Symmetric in a and b; of two equal materials it is that material.
+/// Material of a pair (2.40 in spirit): moduli in series, the lower strength and friction, the mean of the rest; of two laws, contact laws
+/// or restitution rules the first one. Symmetric in a and b; of two equal materials it is that material.
 Material equivalent(const Material& a, const Material& b);
 
 } // namespace proveta

@@ -25,7 +25,7 @@ struct BenchArguments {
 // The default test on a packing of its own or on a stored one.
 Deck deck_for(const BenchArguments& a, int spheres) {
     // Softening by ratio, which bonds of any length can do: sizes go down to a few spheres.
-    input::Json deck = {{"test", "ucs"}, {"material", {{"fracture_energy_tension", 0}, {"fracture_energy_shear", 0}}}};
+    input::Json deck = {{"test", "ucs"}, {"material", {{"card", "custom"}}}};
     if (a.specimen.empty()) {
         deck["specimen"]["spheres"] = spheres;
     } else {

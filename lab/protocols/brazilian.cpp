@@ -219,7 +219,7 @@ class Brazilian : public Protocol {
     }
 
     AxialLoading axial_;
-    std::string platens_ = "flat";
+    std::string platens_ = "strips";
     double jaw_radius_ = 1.5;
     double strip_width_ = 0.1;
     input::NumberOrWord friction_{0.3, ""};

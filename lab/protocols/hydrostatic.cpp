@@ -37,6 +37,8 @@ class Hydrostatic : public Protocol {
                          "time in which it is brought up, steadily after a smooth start; longer where the specimen yields");
         v.number("servo_speed_limit", speed_limit_, input::Unit::velocity, {0.0, 100.0, true, false},
                  "largest closing speed of the platens while they follow the pressure");
+        v.number("unload_to", unload_to_, input::Unit::none, {0.0, 1.0, false, false},
+                 "share of the pressure to which it is taken back at the end, in as much time; 1: the test ends under pressure");
         declare_friction(v, friction_);
         v.refused("confining_pressure", "the pressure is the same all round: \"pressure\"");
         v.refused("rate", "the pressure leads: see \"ramp\"");
@@ -79,7 +81,18 @@ class Hydrostatic : public Protocol {
         auto settings = servo_settings(bench, speed_limit_);
         settings.calm_speed = 2.0 * pressure_ / ramp * settings.compliance * bench.press.length;
         const auto control = std::make_shared<StressServo>(pressure, settings);
-        return {{"loading", Stage::Kind::loading, 1.0, control, [=](const BenchView&) { return control->clock() / ramp; }}};
+        const bool back = unload_to_ < 1.0;
+        std::vector<Stage> stages{
+            {"loading", Stage::Kind::loading, back ? 0.6 : 1.0, control, [=](const BenchView&) { return control->clock() / ramp; }}};
+        if (back) {
+            const auto falling = [p = pressure_, left = unload_to_, ramp](double time) {
+                return p * (1.0 - (1.0 - left) * smooth_start(time, ramp));
+            };
+            settings.calm_speed = 0.0; // unloading is elastic: nothing runs away
+            const auto release = std::make_shared<StressServo>(falling, settings);
+            stages.push_back({"unloading", Stage::Kind::cycling, 1.0, release, [=](const BenchView&) { return release->clock() / ramp; }});
+        }
+        return stages;
     }
 
     // 4. Measurements are the bench's; the ramp ends the test.
@@ -94,10 +107,11 @@ class Hydrostatic : public Protocol {
             pressure.push_back((l.stress[pressure.size()] + 2.0 * m.curve.rows[row][m.curve.column("lateral_stress")]) / 3.0);
             lateral.push_back(m.curve.rows[row][m.curve.column("lateral_stress")]);
         }
-        // The elastic part: before the first bonds yield, at most a fifth of the pressure.
-        const auto line = line_between(l.volume, pressure, 0.05, 0.2);
-        const auto axial = slope_between(l.gauge, pressure, 0.05, 0.2);
-        const auto side = slope_between(l.girth, pressure, 0.05, 0.2);
+        const Loading part = first_samples(l, elastic_samples(m, l));
+        const std::vector<double> low(pressure.begin(), pressure.begin() + static_cast<std::ptrdiff_t>(part.row.size()));
+        const auto line = line_between(part.volume, low, 0.2, 0.8);
+        const auto axial = slope_between(part.gauge, low, 0.2, 0.8);
+        const auto side = slope_between(part.girth, low, 0.2, 0.8);
         const auto crush = line ? offset_yield(l.volume, pressure, *line, crush_offset) : std::nullopt;
         double worst = 0.0;
         for (std::size_t k = 0; k < l.stress.size(); ++k) {
@@ -107,13 +121,17 @@ class Hydrostatic : public Protocol {
         }
         std::vector<report::Scalar> out{
             {"bulk_modulus", "Bulk modulus", line ? std::optional(line->slope) : std::nullopt, "Pa",
-             "slope of mean pressure over volumetric strain (middle gauge and girth), 5 % to 20 % of the largest pressure"},
+             "slope of mean pressure over volumetric strain (middle gauge and girth), 20 % to 80 % of the elastic part, in which a "
+             "hundredth of "
+             "the work is lost"},
             {"strain_ratio", "Lateral over axial strain", axial && side ? std::optional(*axial / *side) : std::nullopt, "",
              "circumferential over middle gauge strain there; isotropic: 1"},
             {"crush_pressure", "Crush pressure", crush, "Pa",
              "where the curve leaves the elastic line, shifted by 0.02 % of volumetric strain (offset yield)"},
             {"volumetric_strain_at_end", "Volumetric strain at the end", l.volume.empty() ? std::nullopt : std::optional(l.volume.back()),
              "", "middle gauge and girth"},
+            {"unloading_modulus", "Bulk modulus in unloading", unloading(m.curve), "Pa",
+             "secant of mean pressure over volumetric strain from the largest pressure to the end, with unload_to below 1"},
             {"servo_error", "Servo, largest error", worst, "", "axial over lateral stress less 1, from a tenth of the pressure on"}};
         for (auto&& more : {energy_results(m)}) {
             out.insert(out.end(), more.begin(), more.end());
@@ -133,11 +151,24 @@ class Hydrostatic : public Protocol {
     }
 
   private:
+    static std::optional<double> unloading(const report::Table& curve) {
+        const auto phase = curve.values("phase");
+        const auto last = std::find(phase.rbegin(), phase.rend(), phase_loading);
+        if (phase.empty() || phase.back() != phase_cycling || last == phase.rend()) {
+            return std::nullopt;
+        }
+        const auto turn = static_cast<std::size_t>(phase.rend() - last) - 1;
+        const auto fell = [&](const char* column) { return curve.values(column)[turn] - curve.values(column).back(); };
+        const double volume = fell("volumetric_strain");
+        return volume > 0.0 ? std::optional((fell("axial_stress") + 2.0 * fell("lateral_stress")) / 3.0 / volume) : std::nullopt;
+    }
+
     static constexpr double pi = 3.14159265358979323846;
 
     double pressure_ = 100e6;
     input::NumberOrWord ramp_{0.0, "auto"};
     double speed_limit_ = 1.0;
+    double unload_to_ = 1.0;
     input::NumberOrWord friction_{0.0, "lubricated"};
 };
 

@@ -84,22 +84,25 @@ class Triaxial : public Protocol {
 
     // 5. Derived results.
     [[nodiscard]] std::vector<report::Scalar> results(const Measured& m) const override {
-        const Loading l = loading_of(m.curve, m.press.sense);
+        const Loading whole = loading_of(m.curve, m.press.sense);
+        const Loading l = until_recovery(whole);
         const std::size_t peak = peak_index(l.deviator);
         const auto passed = peak_if_passed(l.deviator);
         const auto at_peak = [&](const std::vector<double>& of) { return passed ? std::optional(of[peak]) : std::nullopt; };
-        const auto at_two = y_at(l.strain, l.stress, 0.02 * (1.0 - 1e-6));
+        const auto at_two = y_at(whole.strain, whole.stress, 0.02 * (1.0 - 1e-6));
         const auto strength = passed ? at_peak(l.stress) : at_two;
         std::vector<report::Scalar> out{
             {"confining_pressure", "Confining pressure", confinement_.pressure, "Pa", "pressure on the side, held constant"},
             {"strength", "Strength, total axial stress", strength, "Pa",
-             "peak total axial stress, once the deviator has fallen 5 % below its peak; without a peak the stress at 2 % axial strain"},
+             "total axial stress at the first peak of the deviator that it falls 5 % below, whether or not it rises again; without a peak "
+             "the "
+             "stress at 2 % axial strain"},
             {"peak_total_stress", "Peak total axial stress", at_peak(l.stress), "Pa", "at the largest deviator, once it has fallen by 5 %"},
             {"peak_deviatoric_stress", "Peak deviatoric stress", passed, "Pa", "the same less the confining pressure"},
             {"stress_at_2_percent", "Total axial stress at 2 % axial strain", at_two, "Pa", "platen strain since the axial loading began"},
             {"strain_at_peak", "Strain at peak, platens", at_peak(l.strain), "", "platen travel over height since the axial loading began"},
             {"gauge_strain_at_peak", "Strain at peak, middle gauge", at_peak(l.gauge), "", "middle gauge length, the same"},
-            {"residual_stress", "Residual deviatoric stress", residual(l), "Pa",
+            {"residual_stress", "Residual deviatoric stress", residual(whole), "Pa",
              "mean over the last tenth of the strain, once the deviator has fallen by 5 %"},
             {"dilatancy", "Dilatancy", dilatancy(l), "",
              "minus volumetric over axial strain increment by the middle gauges, from 90 % to 100 % of the largest deviator: positive when "

@@ -9,6 +9,7 @@ namespace proveta::verification {
 /// Strengths of table 5.5 (thesis) times 1.195, bonds that soften by ratio: specimens of spheres of any size may be pressed.
 inline input::Json brittle_strengths() {
     return {{"strength_factor", 1.195},
+            {"card", "custom"},
             {"sigma_f", "5 MPa"},
             {"tau_f", "16 MPa"},
             {"mu_s", 0.9},

@@ -44,6 +44,7 @@ Case rate_convergence();
 Case hydrostatic_criterion();
 Case objectivity();
 Case released_law();
+Case facet_bond();
 Case polygon_areas();
 Case area_models();
 Case area_partition();

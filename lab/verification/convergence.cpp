@@ -77,7 +77,7 @@ Case mesh_convergence() {
                     input::Json json = {{"specimen", {{"spheres", n}}}, {"loading", {{"rate", 0.1}}}};
                     if (by_energy) {
                         // Enough that the coarsest specimen's bonds, some 60 mm long, do not snap back; then much tougher than concrete.
-                        json["material"] = {{"fracture_energy_tension", 120.0}, {"fracture_energy_shear", 3000.0}};
+                        json["material"] = {{"card", "custom"}, {"fracture_energy_tension", 120.0}, {"fracture_energy_shear", 3000.0}};
                     }
                     const Test t = press(json, fmt::format("{} spheres", n), colours[k++]);
                     out.checks.push_back({fmt::format("peak, {} spheres, {}", n, how), 0.0, 1e-6 * t.peak, 0.0, Compare::reported, "MPa"});

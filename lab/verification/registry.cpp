@@ -37,6 +37,7 @@ const std::vector<Case>& cases() {
         weak_equals_none(),
         bonded_cantilever(),
         released_law(),
+        facet_bond(),
         polygon_areas(),
         area_models(),
         area_partition(),

@@ -5,7 +5,7 @@ import json
 DECK = {
     "test": "ucs",
     "specimen": {"diameter": "50 mm", "height": "100 mm", "spheres": 300},
-    "material": {"fracture_energy_tension": 0, "fracture_energy_shear": 0, "elasticity": "as-given"},
+    "material": {"card": "custom", "fracture_energy_tension": 0, "fracture_energy_shear": 0, "elasticity": "as-given"},
     "loading": {"rate": "0.4 m/s", "stop": {"axial_strain": 0.006, "post_peak_drop": 0.3}},
     "output": {"samples": 60},
 }

@@ -9,7 +9,7 @@ import unittest
 
 from case import Case, main
 
-BRITTLE = {"fracture_energy_tension": 0, "fracture_energy_shear": 0, "elasticity": "as-given"}
+BRITTLE = {"card": "custom", "fracture_energy_tension": 0, "fracture_energy_shear": 0, "elasticity": "as-given"}
 
 
 def calibration(**changes):

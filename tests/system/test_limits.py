@@ -61,7 +61,7 @@ class Limits(Case):
         keys = ", ".join(f'"{k}": 0' for k in range(1000000))
         self.refused("check", self.deck('{"test": "ucs", "specimen": {' + keys + "}}"), says="10000 keys")
         wrong = ",".join(['"x"'] * 3000000)
-        self.refused("check", self.deck('{"test": "ucs", "material": {"lcs": [' + wrong + "]}}"), says="/material/lcs")
+        self.refused("check", self.deck('{"test": "ucs", "material": {"card": "custom", "lcs": [' + wrong + "]}}"), says="/material/lcs")
 
     def test_surfaces_and_meshes(self):
         for name in ("s.stl", "s.obj", "s.ply", "s.vtk", "s.vtp"):

@@ -147,7 +147,7 @@ class BadInput(Case):
             ({"loading": {"rate": "fast"}}, "/loading/rate"),
             ({"material": {"card": "granite"}}, "/material/card"),
             ({"material": {"card": "no/such/card.json"}}, "neither a card of the program nor a file"),
-            ({"material": {"yrc": [0.5, 2, 3]}}, "/material/yrc/0"),
+            ({"material": {"card": "custom", "yrc": [0.5, 2, 3]}}, "/material/yrc/0"),
             ({"specimen": {"file": "none.h5"}}, "/specimen/file"),
             ({"numerics": {"time_step": "1 s"}}, "stable step"),
             ({"bonding": {"coordination": 29}}, "/bonding/coordination"),
@@ -269,10 +269,10 @@ class SelfDescription(Case):
         decks = [(f, True) for f, kind in kinds.items() if kind == "deck"]
         decks += [(self.deck(**c, name=f"d{k}.json"), good) for k, (c, good) in enumerate([
             ({}, True), ({"loading": {"rate": "0.1 m/s", "platen_friction": "glued"}}, True), ({"loading": {"rate": 0}}, False),
-            ({"loading": {"rat": 1}}, False), ({"specimen": {"spheres": 1}}, False), ({"material": {"lcs": [1, 2]}}, False),
+            ({"loading": {"rat": 1}}, False), ({"specimen": {"spheres": 1}}, False), ({"material": {"card": "custom", "lcs": [1, 2]}}, False),
             ({"specimen": {"seed": [1, 2]}}, True), ({"specimen": {"seed": []}}, False), ({"specimen": {"seed": [1, 1]}}, False),
             ({"test": "triaxial", "loading": {"confining_pressure": ["0 MPa", 1e6]}}, True),
-            ({"test": "none"}, False), ({"specimen": {"diameter": "5 parsec"}}, False), ({"material": {"tau_f": "16 MPa"}}, True)])]
+            ({"test": "none"}, False), ({"specimen": {"diameter": "5 parsec"}}, False), ({"material": {"card": "custom", "tau_f": "16 MPa"}}, True)])]
         for deck, good in decks:
             self.assertEqual(self.run_program("check", deck).returncode == 0, good, deck.read_text())
         jobs = [["schema.json", str(d), good] for d, good in decks]

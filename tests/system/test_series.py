@@ -13,7 +13,7 @@ class Series(Case):
         "test": "triaxial",
         "specimen": {"diameter": "50 mm", "height": "100 mm", "spheres": 400, "seed": [1, 2]},
         # Breaks within the strain it is given, whatever the default card does.
-        "material": {"strength_factor": 1.27, "sigma_f": "5 MPa", "tau_f": "16 MPa", "mu_s": 0.9, "fracture_energy_tension": 16, "fracture_energy_shear": 790, "lcs": ["20 MPa", "45 MPa", "70 MPa"]},
+        "material": {"card": "custom", "strength_factor": 1.27, "sigma_f": "5 MPa", "tau_f": "16 MPa", "mu_s": 0.9, "fracture_energy_tension": 16, "fracture_energy_shear": 790, "lcs": ["20 MPa", "45 MPa", "70 MPa"]},
         "loading": {"rate": "0.4 m/s", "confining_pressure": ["0 MPa", "4 MPa"], "stop": {"axial_strain": 0.006, "post_peak_drop": 0.2}},
         "output": {"samples": 60, "fields": 1},
     }

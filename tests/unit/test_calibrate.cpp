@@ -16,7 +16,7 @@ using proveta::testing::TemporaryFolder;
 namespace {
 
 const std::string small_ucs =
-    R"({"test": "ucs", "specimen": {"spheres": 300}, "material": {"fracture_energy_tension": 0, "fracture_energy_shear": 0}})";
+    R"({"test": "ucs", "specimen": {"spheres": 300}, "material": {"card": "custom", "fracture_energy_tension": 0, "fracture_energy_shear": 0}})";
 
 std::string calibration(const std::string& parameters, const std::string& targets, const std::string& more = "") {
     return R"({"tests": [{"name": "ucs", "deck": )" + small_ucs + R"(}], "parameters": [)" + parameters + R"(], "targets": [)" + targets +
@@ -232,11 +232,15 @@ TEST_CASE("calibration: a test ends where its targets end") {
     };
     const std::string peak = R"({"test": "t", "result": "strength", "value": 1})";
     const std::string curve = R"({"test": "t", "curve": "curve.csv", "y": "total_stress"})";
-    CHECK(shortened(peak, R"({"test": "ucs"})")["post_peak_drop"] == 0.1);
-    CHECK(shortened(peak, R"({"test": "ucs", "loading": {"stop": {"post_peak_drop": 0.4}}})")["post_peak_drop"] == 0.4);
-    CHECK(shortened(curve, R"({"test": "ucs"})")["axial_strain"].get<double>() == Approx(0.0021));
-    CHECK(shortened(peak + ", " + curve, R"({"test": "ucs"})")["axial_strain"].get<double>() == Approx(0.0042)); // peaks come later, too
-    CHECK(shortened(R"({"test": "t", "result": "post_peak_slope", "value": -1})", R"({"test": "ucs"})")["post_peak_drop"] == 0.6);
+    CHECK(shortened(peak, R"({"test": "ucs", "material": {"card": "custom"}})")["post_peak_drop"] == 0.1);
+    CHECK(shortened(peak,
+                    R"({"test": "ucs", "material": {"card": "custom"}, "loading": {"stop": {"post_peak_drop": 0.4}}})")["post_peak_drop"] ==
+          0.4);
+    CHECK(shortened(curve, R"({"test": "ucs", "material": {"card": "custom"}})")["axial_strain"].get<double>() == Approx(0.0021));
+    CHECK(shortened(peak + ", " + curve, R"({"test": "ucs", "material": {"card": "custom"}})")["axial_strain"].get<double>() ==
+          Approx(0.0042)); // peaks come later, too
+    CHECK(shortened(R"({"test": "t", "result": "post_peak_slope", "value": -1})",
+                    R"({"test": "ucs", "material": {"card": "custom"}})")["post_peak_drop"] == 0.6);
 }
 
 TEST_CASE("CSV of others: separators, headings, comments, and what is wrong where") {

@@ -154,8 +154,9 @@ TEST_CASE("a member's name without its seed") {
 
 TEST_CASE("a series finds its envelope, its ratios and its groups") {
     const TemporaryFolder decks;
-    const auto confined =
-        decks.file("t.json", R"({"test": "triaxial", "loading": {"confining_pressure": [0, 1e7]}, "specimen": {"seed": [1, 2]}})");
+    const auto confined = decks.file(
+        "t.json",
+        R"({"test": "triaxial", "loading": {"confining_pressure": [0, 1e7]}, "specimen": {"seed": [1, 2]}, "material": {"card": "custom"}})");
     const auto splitting = decks.file("b.json", R"({"test": "brazilian"})");
     const Plan plan = read_plan({confined, splitting}, {});
     REQUIRE(plan.members.size() == 5);

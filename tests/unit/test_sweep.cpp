@@ -32,7 +32,7 @@ std::vector<double> coordinates(const std::vector<Point>& points, std::size_t k)
 }
 
 std::string sweep_text(const std::string& more) {
-    return R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
+    return R"({"tests": [{"name": "press", "deck": {"test": "ucs", "material": {"card": "custom"}}}],
                "parameters": [{"path": "material.tau_f", "low": "10 MPa", "high": "20 MPa"},
                               {"path": "material.sigma_f", "low": 0.1, "high": 0.3, "times": "tau_f"}])" +
            more + "}";
@@ -234,7 +234,8 @@ TEST_CASE("a sweep is read with its decks, and its manifest is the same sweep") 
 
 TEST_CASE("levels of a grid are taken as they are") {
     const TemporaryFolder folder;
-    const Sweep sweep = read_sweep(folder.file("s.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}], "design": "grid",
+    const Sweep sweep = read_sweep(
+        folder.file("s.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs", "material": {"card": "custom"}}}], "design": "grid",
         "parameters": [{"path": "material.tau_f", "values": ["11 MPa", "13.7 MPa"]},
                        {"path": "material.mu_s", "low": 0.1, "high": 0.9, "levels": 3}]})"));
     REQUIRE(sweep.values.size() == 6);
@@ -255,11 +256,13 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
     CHECK(path_of(R"(, "design": "morris", "levels": 5)") == "/levels");
     CHECK(path_of(R"(, "design": "morris", "points": 50000)") == "/points");
     CHECK(path_of(R"(, "design": "random")") == "/design");
-    const auto beyond = problems_of_sweep(folder.file("b.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
+    const auto beyond =
+        problems_of_sweep(folder.file("b.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs", "material": {"card": "custom"}}}],
         "parameters": [{"path": "material.tau_f", "low": -1, "high": "9 MPa"}, {"path": "material.mu_s", "values": [0.1, 0.2]}]})"));
     REQUIRE(beyond.size() == 1);
     CHECK(beyond.front().path == "/parameters/1/values");
-    const auto bounds = problems_of_sweep(folder.file("c.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
+    const auto bounds =
+        problems_of_sweep(folder.file("c.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs", "material": {"card": "custom"}}}],
         "parameters": [{"path": "material.tau_f", "low": -1, "high": "9 MPa"}]})"));
     REQUIRE(bounds.size() == 1);
     CHECK(bounds.front().path == "/parameters/0/low");

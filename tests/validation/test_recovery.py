@@ -12,7 +12,7 @@ from case import Case, main  # noqa: E402
 # Tough enough that no bond of a specimen of 1,000 spheres snaps back within the bounds.
 COMMON = {
     "specimen": {"spheres": 1000},
-    "material": {"fracture_energy_tension": 40, "fracture_energy_shear": 2500},
+    "material": {"card": "custom", "fracture_energy_tension": 40, "fracture_energy_shear": 2500},
     "output": {"fields": 0},
 }
 TRUTH = {"young_modulus": 31e9, "tau_f": 14e6, "sigma_f": 4.2e6, "lcs": [24e6, 45e6, 70e6]}

@@ -57,7 +57,7 @@ TEST_CASE("averaged stress: the spheres of a pressed column carry its stress, sy
 
 TEST_CASE("averaged criterion: a pressed specimen fails by it, and its ledger closes") {
     const Deck deck = small_deck(800, R"({"loading": {"rate": "0.5 m/s", "stop": {"axial_strain": 0.01, "post_peak_drop": 0.3}},
-        "material": {"criterion": "mohr_coulomb"}})");
+        "material": {"card": "custom", "criterion": "mohr_coulomb"}})");
     Bench bench = set_up(deck, make_specimen(deck.specimen));
     const TestData data = run_protocol(deck, bench, {[](const TestData&, double) {}, [] {}, [] { return false; }});
     CHECK(bench.model->broken() > 100);
@@ -68,7 +68,7 @@ TEST_CASE("averaged criterion: a pressed specimen fails by it, and its ledger cl
 }
 
 TEST_CASE("fracture energy: bonds that would snap back are refused, naming the longest allowed") {
-    const Deck deck = small_deck(300, R"({"material": {"fracture_energy_tension": 0.5, "fracture_energy_shear": 5}})");
+    const Deck deck = small_deck(300, R"({"material": {"card": "custom", "fracture_energy_tension": 0.5, "fracture_energy_shear": 5}})");
     try {
         set_up(deck, make_specimen(deck.specimen));
         FAIL("accepted");
@@ -96,8 +96,9 @@ TEST_CASE("fragments: what has come off is marked, what holds together is not") 
 }
 
 TEST_CASE("checkpoint: bonds with moments and an averaged criterion go on bit for bit") {
-    const Deck deck =
-        small_deck(400, R"({"material": {"criterion": "rankine", "sigma_f": "0.5 MPa", "bending_factor": 1, "twisting_factor": 0.5}})");
+    const Deck deck = small_deck(
+        400,
+        R"({"material": {"card": "custom", "criterion": "rankine", "sigma_f": "0.5 MPa", "bending_factor": 1, "twisting_factor": 0.5}})");
     const Specimen specimen = make_specimen(deck.specimen);
     Bench whole = set_up(deck, specimen);
     const auto press = [](Model& m, int steps) {

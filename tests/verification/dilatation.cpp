@@ -13,7 +13,7 @@ using namespace proveta::testing;
 
 namespace {
 
-constexpr const char* averaged = R"({"material": {"elasticity": "as-given", "averaged_factor": 2.0, "sigma_f": "1000 GPa",
+constexpr const char* averaged = R"({"material": {"card": "custom", "elasticity": "as-given", "averaged_factor": 2.0, "sigma_f": "1000 GPa",
     "tau_f": "1000 GPa", "lcs": ["1000 GPa", "2000 GPa", "3000 GPa"], "fracture_energy_tension": 0, "fracture_energy_shear": 0}})";
 
 // Every sphere somewhere near its place.

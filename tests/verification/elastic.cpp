@@ -196,7 +196,7 @@ TEST_CASE("elastic: the tensor of an isotropic solid gives its constants back") 
 
 TEST_CASE("elastic: calibration meets E and nu, and says when bonds cannot") {
     for (const auto& [elasticity, nu] : {std::pair{"calibrated", 0.1}, {"calibrated", 0.35}, {"calibrated-bonds", 0.35}}) {
-        Deck deck = small_deck(1000, R"({"material": {"young_modulus": "40 GPa", "fracture_energy_shear": 0}})");
+        Deck deck = small_deck(1000, R"({"material": {"card": "custom", "young_modulus": "40 GPa", "fracture_energy_shear": 0}})");
         deck.material.values.elasticity = elasticity;
         deck.material.values.poisson_ratio = nu;
         const Specimen specimen = make_specimen(deck.specimen);

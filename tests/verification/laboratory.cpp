@@ -44,7 +44,7 @@ Ran run(const std::string& test, const std::string& more) {
 }
 
 const std::string unbreakable_bonds =
-    R"("material": {"sigma_f": "1000 GPa", "tau_f": "1000 GPa", "lcs": ["1000 GPa", "2000 GPa", "3000 GPa"]})";
+    R"("material": {"card": "custom", "sigma_f": "1000 GPa", "tau_f": "1000 GPa", "lcs": ["1000 GPa", "2000 GPa", "3000 GPa"]})";
 
 Vec3 pushed(const Spheres& s, Pressure& p) {
     Loads loads(s.size());

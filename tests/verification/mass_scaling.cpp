@@ -81,7 +81,8 @@ TEST_CASE("mass-scaling: the added mass stays within its share and the stable st
 }
 
 TEST_CASE("mass-scaling: the bound stays below the power iteration's limit, and a step beyond the true masses' limit is stable") {
-    const Deck deck = small_deck(600, R"({"numerics": {"mass_scaling": 0.1}, "material": {"sigma_f": "100 GPa", "tau_f": "100 GPa"}})");
+    const Deck deck =
+        small_deck(600, R"({"numerics": {"mass_scaling": 0.1}, "material": {"card": "custom", "sigma_f": "100 GPa", "tau_f": "100 GPa"}})");
     const Specimen specimen = make_specimen(deck.specimen);
     const Bench bench = set_up(deck, specimen);
     const Model& m = *bench.model;
@@ -97,7 +98,8 @@ TEST_CASE("mass-scaling: the bound stays below the power iteration's limit, and 
 
 TEST_CASE("stable step: strong non-viscous damping lowers the bound, below which motion dies out and above which it does not") {
     const Deck deck = small_deck(
-        600, R"({"material": {"elasticity": "as-given", "sigma_f": "100 GPa", "tau_f": "100 GPa"}, "numerics": {"mass_scaling": 0}})");
+        600,
+        R"({"material": {"card": "custom", "elasticity": "as-given", "sigma_f": "100 GPa", "tau_f": "100 GPa"}, "numerics": {"mass_scaling": 0}})");
     const Specimen specimen = make_specimen(deck.specimen);
     const Bench bench = set_up(deck, specimen);
     const double bound = bare(bench, 1e-9, 0.0).stable_step(); // of the springs alone

@@ -95,7 +95,7 @@ TEST_CASE("objectivity: a specimen turned about its axis and renumbered answers 
     std::vector<double> stress;
     for (const bool turned : {false, true}) {
         const Deck deck = small_deck(800, R"({"loading": {"rate": "0.2 m/s", "stop": {"axial_strain": 0.0003}},
-            "material": {"sigma_f": "100 GPa", "tau_f": "100 GPa", "lcs": ["1 GPa", "2 GPa", "3 GPa"], "elasticity": "as-given"}})");
+            "material": {"card": "custom", "sigma_f": "100 GPa", "tau_f": "100 GPa", "lcs": ["1 GPa", "2 GPa", "3 GPa"], "elasticity": "as-given"}})");
         Specimen s = make_specimen(deck.specimen);
         if (turned) {
             const Eigen::AngleAxisd turn(1.0, Vec3::UnitZ());
@@ -164,7 +164,7 @@ TEST_CASE("groups and materials: bonds stay within groups, pairs of materials ta
         {"from": ["-1 m", "-1 m", "50 mm"], "to": ["1 m", "1 m", "1 m"], "group": 0,
          "material": {"card": "concrete_sfer", "sigma_f": "1 MPa", "fracture_energy_tension": 0, "fracture_energy_shear": 0}},
         {"from": ["-1 m", "-1 m", "75 mm"], "to": ["1 m", "1 m", "1 m"], "group": 5,
-         "material": {"young_modulus": "7 GPa", "fracture_energy_tension": 0, "fracture_energy_shear": 0}}]})");
+         "material": {"card": "custom", "young_modulus": "7 GPa", "fracture_energy_tension": 0, "fracture_energy_shear": 0}}]})");
     const Bench bench = set_up(deck, make_specimen(deck.specimen));
     const Bonds& b = bench.model->bonds;
     CHECK(b.groups.size() == 4); // lower, lower/middle, middle, and the top, which is a group of its own

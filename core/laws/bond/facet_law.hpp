@@ -19,9 +19,10 @@
 //                phi s_0 exp(-h_2 (R - R_1) / phi),  h_2 with 2 phi^2 / (L_t/L - 1 - (1 - phi)(L_t/l_0 - 1)) in the place of
 //                2 / (L_t/L - 1), so that a facet torn in pure tension releases G_t = s_t^2 L_t / (2 E0) an area whatever its length
 // Compression, e_N < 0:  s_N down to -s_bc(e_DV), e_DV = e_V + beta (e_N - e_V); the rest is plastic                  (eqs. 23 to 26)
-// Shear under compression:  |s_T| <= s_s (1 - c D) + (mu_0 - mu_inf) s_N0 (1 - exp(s_N / s_N0)) - mu_inf s_N           (eqs. 27 to 29)
+// Shear under compression:  |s_T| <= (1 - c D) s_bs - c D mu_d s_N,
+//   s_bs = s_s + (mu_0 - mu_inf) s_N0 (1 - exp(s_N / s_N0)) - mu_inf s_N                                              (eqs. 27 to 29)
 // Closing of a damaged facet keeps its shear force, u_t <- (1 - D) u_t; opening it again returns to the secant. Both take energy.
-// Failed, at D = 0.995: no cohesion, friction mu_d with k_t, the slip starts at zero.
+// Failed, where a hundredth of the strength is left: no cohesion, friction mu_d with k_t, the slip starts at zero.
 //
 // Energies are those that a trapezoidal rule over the step gives, each from its own mechanism.
 #pragma once
@@ -56,7 +57,7 @@ struct Facet {
         double mu_0 = 0.07;
         double mu_inf = 0.0;
         double sigma_n0 = 600.0e6;  ///< s_N0, Pa
-        double cohesion_loss = 0.0; ///< c
+        double cohesion_loss = 1.0; ///< c
     };
 
     /// Parameters with what follows from them.
@@ -121,7 +122,8 @@ struct Facet {
         v.number("transitional_stress", p.sigma_n0, V::Unit::pressure, V::above(0), "sigma_N0: pressure between the two (LDPM)");
         v.number(
             "cohesion_loss", p.cohesion_loss, V::Unit::none, V::between(0, 1),
-            "share of the cohesion under compression that goes with damage: 0 keeps it until failure (LDPM), 1 takes it in proportion");
+            "c: how far damage in tension leads the shear limit under compression over to a crack's friction mu_d: 1 in proportion, 0 not "
+            "before failure (LDPM)");
     }
 
     static Parameters mix(const Parameters& a, const Parameters& b);
@@ -136,7 +138,7 @@ struct Facet {
     /// -s_bc: compressive stress at which pores collapse, Pa. e_n: normal strain of the facet, e_v: mean normal strain around it, both
     /// positive in tension.
     template <class T> PROVETA_INLINE static T collapse_stress(const Constants& p, const T& e_n, const T& e_v) {
-                using std::max;
+        using std::max;
         using std::min;
         const T zero = T(0.0);
         const T deviatoric = e_n - e_v;
@@ -179,10 +181,11 @@ struct Facet {
         return exp_of(T(-select(along > T(p.first_end), T(p.first_end + past), along)));
     }
 
-    /// Largest shear stress under compression, Pa. pressed: compressive stress, at least 0.
+    /// Largest shear stress under compression, Pa: the facet's own, from which damage leads over to a crack's friction. pressed:
+    /// compressive stress, at least 0.
     template <class T> PROVETA_INLINE static T shear_limit(const Constants& p, const T& pressed, const T& damage) {
-        return p.sigma_s * (1.0 - p.cohesion_loss * damage) +
-               (p.mu_0 - p.mu_inf) * p.sigma_n0 * (1.0 - exp_of(T(pressed * (-1.0 / p.sigma_n0)))) + p.mu_inf * pressed;
+        const T own = p.sigma_s + (p.mu_0 - p.mu_inf) * p.sigma_n0 * (1.0 - exp_of(T(pressed * (-1.0 / p.sigma_n0)))) + p.mu_inf * pressed;
+        return own + p.cohesion_loss * damage * (p.mu_d * pressed - own);
     }
 
     /// One step of one facet. Pure: everything comes in by argument and leaves by state and result; the state is brought to the end of the
@@ -259,7 +262,7 @@ struct Facet {
             const T ratio = max(overload, one);
             const T left = strength_left(p, bond.length, ratio, quarter_turn(T(max(elongation, zero)), across));
             damage = select(grows, T(max(damage_old, one - left / ratio)), damage_old);
-            damage = select(damage >= T(failed_at), one, damage);
+            damage = select(grows && (left <= T(failed_at)), one, damage);
         }
         const auto fails_now = (damage >= one) && !was_failed;
         const auto opens = pulled && !was_failed;
@@ -329,7 +332,7 @@ struct Facet {
     }
 
   private:
-    static constexpr double failed_at = 0.995;
+    static constexpr double failed_at = 0.01; ///< of the strength: what is left when a facet has failed
 };
 
 } // namespace proveta
