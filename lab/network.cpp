@@ -11,6 +11,7 @@
 #include "core/geometry/hilbert.hpp"
 #include "core/hash.hpp"
 #include "core/input/units.hpp"
+#include "lab/strength_scatter.hpp"
 
 namespace proveta {
 
@@ -258,6 +259,7 @@ Network make_network(const Deck& deck, const Specimen& specimen, const SpecimenS
     out.dropped = pairs.size() - out.bonds.size();
     out.coordination = 2.0 * static_cast<double>(out.bonds.size()) / static_cast<double>(out.spheres.size());
     refuse_snap_back(out.bonds, deck);
+    out.bonds.strength = scattered_strengths(out.spheres, out.bonds, static_cast<std::uint64_t>(deck.specimen.seed));
     out.long_bonds = long_bonds(out.bonds, specimen.shape, out.spheres);
     return out;
 }

@@ -11,7 +11,7 @@
 namespace proveta {
 
 /// What a stream of random numbers is for. Streams of one seed are independent, so that a new use never disturbs an old one.
-enum class Stream : std::uint64_t { radii = 1, positions = 2, stones = 3, attitudes = 4 };
+enum class Stream : std::uint64_t { radii = 1, positions = 2, stones = 3, attitudes = 4, strengths = 5 };
 
 class Random {
   public:

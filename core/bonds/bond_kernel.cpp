@@ -104,6 +104,7 @@ PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const
     bond.k_n = load<T>(&bonds.stiffness[b]);
     bond.area = load<T>(&bonds.area[b]);
     bond.volumetric = T(0.0);
+    bond.strength = bonds.strength != nullptr ? load<T>(&bonds.strength[b]) : T(1.0);
     if constexpr (Law::asks_volumetric_strain) {
         if (bonds.volumetric != nullptr) {
             bond.volumetric = 0.5 * (gather<T>(bonds.volumetric, &bonds.i[b]) + gather<T>(bonds.volumetric, &bonds.j[b]));

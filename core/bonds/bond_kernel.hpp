@@ -40,6 +40,7 @@ struct BondView {
     double* couple[3];
     const double *shift, *shift_before; ///< of the elongation, by the averaged stress (dilatation.hpp); null: none
     const double* volumetric;           ///< e_V of each sphere (volumetric_strain.hpp); null: no law asks for it
+    const double* strength;             ///< factor on each bond's strength; null: 1
     bool damped;
 };
 

@@ -31,19 +31,20 @@ struct Bonds {
     std::vector<double> area;                ///< m2
     std::vector<double> stiffness;           ///< k_n, N/m
     std::vector<double> dashpot;             ///< c_n, N s/m
+    std::vector<double> strength;            ///< factor on the strength, where it scatters; else empty
     VectorField slip;                        ///< u_t, elastic tangential displacement, m
     std::vector<double> memory[bond_memory]; ///< what the bonds' laws remember, in the order of their `members`: of each of them the first
                                              ///< is u_p, plastic shortening, m, and the second the damage of an elongated bond, 0 to 1
-    std::vector<double> damage_work;     ///< dissipated by damage and failure so far, J
-    std::vector<std::uint8_t> mode;      ///< FailureMode
-    std::vector<std::uint8_t> worn;      ///< 0 as long as the memory is surely zero, so that it need not be read
-    std::vector<std::uint32_t> failures; ///< scratch of the kernel
-    Incidence incidence;                 ///< bonds of each sphere
-    VectorField rotation;                ///< theta of bonds with moments, rad; empty without
-    VectorField couple;                  ///< moment of j on i of bonds with moments, N m; empty without
-    Dilatation dilatation;               ///< the averaged part of the stress, for Poisson's ratios that bonds alone do not reach
-    VolumetricStrain volumetric;         ///< strain around spheres, for laws that look at it
-    std::vector<BondGroup> groups;       ///< one of each pair of materials
+    std::vector<double> damage_work;         ///< dissipated by damage and failure so far, J
+    std::vector<std::uint8_t> mode;          ///< FailureMode
+    std::vector<std::uint8_t> worn;          ///< 0 as long as the memory is surely zero, so that it need not be read
+    std::vector<std::uint32_t> failures;     ///< scratch of the kernel
+    Incidence incidence;                     ///< bonds of each sphere
+    VectorField rotation;                    ///< theta of bonds with moments, rad; empty without
+    VectorField couple;                      ///< moment of j on i of bonds with moments, N m; empty without
+    Dilatation dilatation;                   ///< the averaged part of the stress, for Poisson's ratios that bonds alone do not reach
+    VolumetricStrain volumetric;             ///< strain around spheres, for laws that look at it
+    std::vector<BondGroup> groups;           ///< one of each pair of materials
     std::vector<BondBlock> blocks;
     std::vector<std::uint32_t> first_block; ///< of each block of spheres, and the number of blocks
     bool damped = false;                    ///< some bond has a dashpot

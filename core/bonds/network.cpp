@@ -67,7 +67,7 @@ std::string Bonds::memory_name(std::size_t k) const {
             }
         });
     });
-    return name;
+    return name.empty() ? "memory_" + std::to_string(k) : name; // without bonds there is no law
 }
 
 BondView Bonds::view() {
@@ -95,6 +95,7 @@ BondView Bonds::view() {
             dilatation.active() ? dilatation.shift.data() : nullptr,
             dilatation.active() ? dilatation.shift_before.data() : nullptr,
             volumetric.active() ? volumetric.strain.data() : nullptr,
+            strength.empty() ? nullptr : strength.data(),
             damped};
 }
 

@@ -74,14 +74,18 @@ Facet::Parameters Facet::mix(const Parameters& a, const Parameters& b) {
                                        &Parameters::mu_0, &Parameters::mu_inf}) {
         m.*weaker = std::min(a.*weaker, b.*weaker);
     }
-    for (double Parameters::*shape : {&Parameters::exponent, &Parameters::softening_s, &Parameters::first_length, &Parameters::tail,
-                                      &Parameters::hardening, &Parameters::transition, &Parameters::kappa_c1, &Parameters::kappa_c2,
-                                      &Parameters::kappa_c3, &Parameters::coupling, &Parameters::sigma_n0, &Parameters::cohesion_loss}) {
+    for (double Parameters::*shape :
+         {&Parameters::exponent, &Parameters::softening_s, &Parameters::first_length, &Parameters::tail, &Parameters::hardening,
+          &Parameters::transition, &Parameters::kappa_c1, &Parameters::kappa_c2, &Parameters::kappa_c3, &Parameters::coupling,
+          &Parameters::sigma_n0, &Parameters::cohesion_loss, &Parameters::correlation_length}) {
         m.*shape = std::midpoint(a.*shape, b.*shape);
     }
     if (a.first_length == 0.0 || b.first_length == 0.0) {
         m.first_length = 0.0; // one of them has a single stage
     }
+    // The wider scatter.
+    m.weibull_modulus = a.weibull_modulus == 0.0 || b.weibull_modulus == 0.0 ? std::max(a.weibull_modulus, b.weibull_modulus)
+                                                                             : std::min(a.weibull_modulus, b.weibull_modulus);
     return m;
 }
 

@@ -26,6 +26,7 @@ template <class T> struct BondShape {
     T area;       ///< m2
     T length;     ///< d0, m
     T volumetric; ///< mean normal strain around the bond, e_V, positive in tension; 0 for laws that do not ask for it
+    T strength;   ///< factor on the strength, 1 without scatter
 };
 
 /// What happens to a bond within one step.

@@ -45,6 +45,7 @@ Case hydrostatic_criterion();
 Case objectivity();
 Case released_law();
 Case facet_bond();
+Case facet_bar();
 Case polygon_areas();
 Case area_models();
 Case area_partition();

@@ -45,7 +45,7 @@ struct Walk {
             const double dx = next_slip - slip;
             u = next;
             slip = next_slip;
-            r = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0}, {u, du, {dx, 0.0, 0.0}}, s);
+            r = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0, 1.0}, {u, du, {dx, 0.0, 0.0}}, s);
             work += 0.5 * ((before.normal + r.normal) * du + (before.shear[0] + r.shear[0]) * dx);
             dissipated += r.damage_work + r.plastic_work + r.friction_work;
             if (normal) {
@@ -56,7 +56,7 @@ struct Walk {
             }
         }
     }
-    [[nodiscard]] double stored() const { return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s); }
+    [[nodiscard]] double stored() const { return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0, 1.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s); }
 
     void keep(const char* name, const char* colour, bool in_shear) {
         if (curve.name.empty()) {

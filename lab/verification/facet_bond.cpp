@@ -24,6 +24,7 @@ Facet::Parameters concrete() {
     p.exponent = 0.8;
     p.first_length = 0.0108;
     p.tail = 0.4;
+    p.cohesion_loss = 1.0;
     return p;
 }
 
@@ -41,7 +42,7 @@ struct Walk {
 
     explicit Walk(const Facet::Parameters& p, double l = 0.0077) : c(Facet::constants(p, {e_0, alpha, 0.25})), length(l) {}
 
-    [[nodiscard]] BondShape<double> bond() const { return {e_0 * area / length, area, length, volumetric}; }
+    [[nodiscard]] BondShape<double> bond() const { return {e_0 * area / length, area, length, volumetric, 1.0}; }
     [[nodiscard]] double s_n() const { return -r.normal / area; } // tension positive
     [[nodiscard]] double s_t() const { return r.shear[0] / area; }
     [[nodiscard]] double lost() const { return damage + plastic + friction; }
@@ -346,7 +347,7 @@ void rotation(Outcome& out) {
     const double turn = 1.1;
     Facet::State<double> one{{0, 0, 0}, 0, 0, 0};
     Facet::State<double> other = one;
-    const BondShape<double> bond{e_0 * area / 0.0077, area, 0.0077, 0.0};
+    const BondShape<double> bond{e_0 * area / 0.0077, area, 0.0077, 0.0, 1.0};
     double worst = 0.0;
     double u = 0.0;
     for (int k = 0; k < 3000; ++k) {

@@ -38,6 +38,7 @@ const std::vector<Case>& cases() {
         bonded_cantilever(),
         released_law(),
         facet_bond(),
+        facet_bar(),
         polygon_areas(),
         area_models(),
         area_partition(),

@@ -35,7 +35,7 @@ struct Pair {
     [[nodiscard]] double k_n() const { return 1e9 * area / length; }
     void move(double approach, double slip) {
         shortening += approach;
-        response = KratosDempack::advance<double>(law, {k_n(), area, length, 0.0}, {shortening, approach, {slip, 0, 0}}, state);
+        response = KratosDempack::advance<double>(law, {k_n(), area, length, 0.0, 1.0}, {shortening, approach, {slip, 0, 0}}, state);
     }
 };
 

@@ -30,7 +30,7 @@ struct TestBond {
     void move(double du, double dx = 0.0, double dy = 0.0) {
         const auto before = r;
         u += du;
-        r = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0}, BondMotion<double>{u, du, {dx, dy, 0.0}}, s);
+        r = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0, 1.0}, BondMotion<double>{u, du, {dx, dy, 0.0}}, s);
         const double w =
             0.5 * ((before.normal + r.normal) * du + (before.shear[0] + r.shear[0]) * dx + (before.shear[1] + r.shear[1]) * dy);
         work += w;
@@ -51,7 +51,7 @@ struct TestBond {
             move(0.0, dx / steps);
         }
     }
-    double stored() { return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s); }
+    double stored() { return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0, 1.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s); }
     double k_t() const { return k_n * p.shear_ratio; }
 };
 
@@ -253,9 +253,9 @@ TEST_CASE("dempack-bond: a vector of bonds gives the bits of single bonds") {
             kin.slip[0][k] = dx;
             kin.slip[1][k] = 0.5 * dx;
             kin.slip[2][k] = 0.0;
-            r[k] = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0}, BondMotion<double>{u[k], du, {dx, 0.5 * dx, 0.0}}, single[k]);
+            r[k] = Dempack::advance<double>(p, {k_n, area, 0.0, 0.0, 1.0}, BondMotion<double>{u[k], du, {dx, 0.5 * dx, 0.0}}, single[k]);
         }
-        const auto together = Dempack::advance<Lanes>(p, {Lanes(k_n), Lanes(area), Lanes(0.0), Lanes(0.0)}, kin, many);
+        const auto together = Dempack::advance<Lanes>(p, {Lanes(k_n), Lanes(area), Lanes(0.0), Lanes(0.0), Lanes(1.0)}, kin, many);
         for (std::size_t k = 0; k < n; ++k) {
             REQUIRE(together.normal[k] == r[k].normal);
             REQUIRE(together.shear[0][k] == r[k].shear[0]);

@@ -56,8 +56,10 @@ struct Facet {
         double coupling = 1.0; ///< beta
         double mu_0 = 0.07;
         double mu_inf = 0.0;
-        double sigma_n0 = 600.0e6;  ///< s_N0, Pa
-        double cohesion_loss = 1.0; ///< c
+        double sigma_n0 = 600.0e6;       ///< s_N0, Pa
+        double cohesion_loss = 0.0;      ///< c
+        double weibull_modulus = 0.0;    ///< of the scatter of strengths over facets; 0: none
+        double correlation_length = 0.0; ///< of that scatter, m
     };
 
     /// Parameters with what follows from them.
@@ -124,6 +126,10 @@ struct Facet {
             "cohesion_loss", p.cohesion_loss, V::Unit::none, V::between(0, 1),
             "c: how far damage in tension leads the shear limit under compression over to a crack's friction mu_d: 1 in proportion, 0 not "
             "before failure (LDPM)");
+        v.number("weibull_modulus", p.weibull_modulus, V::Unit::none, V::between(0, 1000),
+                 "Weibull modulus of a scatter of tensile and shear strength over the facets, with the mean kept; 0: none");
+        v.number("correlation_length", p.correlation_length, V::Unit::length, V::at_least(0),
+                 "length over which that scatter is alike; 0: each facet by itself");
     }
 
     static Parameters mix(const Parameters& a, const Parameters& b);
@@ -183,8 +189,9 @@ struct Facet {
 
     /// Largest shear stress under compression, Pa: the facet's own, from which damage leads over to a crack's friction. pressed:
     /// compressive stress, at least 0.
-    template <class T> PROVETA_INLINE static T shear_limit(const Constants& p, const T& pressed, const T& damage) {
-        const T own = p.sigma_s + (p.mu_0 - p.mu_inf) * p.sigma_n0 * (1.0 - exp_of(T(pressed * (-1.0 / p.sigma_n0)))) + p.mu_inf * pressed;
+    template <class T> PROVETA_INLINE static T shear_limit(const Constants& p, const T& strength, const T& pressed, const T& damage) {
+        const T own =
+            p.sigma_s * strength + (p.mu_0 - p.mu_inf) * p.sigma_n0 * (1.0 - exp_of(T(pressed * (-1.0 / p.sigma_n0)))) + p.mu_inf * pressed;
         return own + p.cohesion_loss * damage * (p.mu_d * pressed - own);
     }
 
@@ -220,7 +227,7 @@ struct Facet {
         }
         const T tension = max(-r.normal, zero) / (p.sigma_t * bond.area); // s_N / s_t, elastic
         const T cohesion = p.sigma_s * bond.area;
-        const T strength = cut(p, bond.length);
+        const T strength = bond.strength * cut(p, bond.length);
         const auto outside = k_t * k_t * dot(trial, trial) > strength * cohesion * cohesion * (strength - tension);
         if (!any_of(outside) && !any_of(s.damage > zero)) {
             for (int c = 0; c < 3; ++c) {
@@ -274,7 +281,8 @@ struct Facet {
 
         // Closed: slides over its cohesion and friction; failed: over Coulomb's alone.
         const T pressed = max(r.normal, zero);
-        const T limit = select(was_failed, T(p.mu_d * pressed), T(bond.area * shear_limit(p, T(pressed / bond.area), damage)));
+        const T limit =
+            select(was_failed, T(p.mu_d * pressed), T(bond.area * shear_limit(p, bond.strength, T(pressed / bond.area), damage)));
         const T force = k_t * slipped;
         const auto slides = !opens && (force > limit);
         const T keep = select(slides, T(limit / max(force, T(smallest))), one);
@@ -314,9 +322,9 @@ struct Facet {
         const T left = max(T(1.0) - s.damage, T(smallest));
         const T tension = bond.k_n * max(elongation, zero) / (p.sigma_t * bond.area);
         const T in_shear = shear / (left * p.sigma_s * bond.area);
-        const T overload = 0.5 * (tension + sqrt(tension * tension + 4.0 * in_shear * in_shear)) / cut(p, bond.length);
+        const T overload = 0.5 * (tension + sqrt(tension * tension + 4.0 * in_shear * in_shear)) / (bond.strength * cut(p, bond.length));
         const T pressed = max(normal, zero) / bond.area;
-        const T closed = shear / max(bond.area * shear_limit(p, pressed, s.damage), T(smallest));
+        const T closed = shear / max(bond.area * shear_limit(p, bond.strength, pressed, s.damage), T(smallest));
         const T open = select(s.damage > zero, s.damage, overload);
         return select(failed(s), T(1.0), min(select(elongation > zero, open, closed), T(1.0)));
     }
