@@ -32,7 +32,8 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
     mean_radius_ = mean_radius(spheres);
     skin_ = numerics_.skin * mean_radius_;
     reactions_.assign(walls.platens.size(), Vec3::Zero());
-    averaged_ = std::any_of(bonds.groups.begin(), bonds.groups.end(), [](const BondGroup& g) { return g.criterion.kind != Criterion::bond; });
+    averaged_ =
+        std::any_of(bonds.groups.begin(), bonds.groups.end(), [](const BondGroup& g) { return g.criterion.kind != Criterion::bond; });
     if (averaged_) {
         volume_ = tributary_volumes(spheres, bonds);
     }

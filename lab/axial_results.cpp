@@ -11,7 +11,7 @@ namespace {
 
 constexpr double peak_fall = 0.95;    // of a peak, below which it counts as passed
 constexpr double elastic_loss = 0.01; // of the work, dissipated in an elastic part at most
-constexpr double capping = 0.1; // of a radius: what an end's grinding or cap would level out
+constexpr double capping = 0.1;       // of a radius: what an end's grinding or cap would level out
 
 std::optional<double> last_of(const report::Table& t, const char* column) {
     return t.rows.empty() ? std::nullopt : std::optional(t.rows.back()[t.column(column)]);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/laws/material.hpp"
 #include "core/input/json.hpp"
+#include "core/laws/material.hpp"
 
 namespace proveta {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/laws/material.hpp"
 #include "core/boundaries/wall_contact.hpp"
 #include "core/contacts/loads.hpp"
+#include "core/laws/material.hpp"
 #include "core/particles/spheres.hpp"
 
 namespace proveta {

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "core/bonds/bonds.hpp"
-#include "core/laws/material.hpp"
 #include "core/contacts/contact_kernel.hpp"
 #include "core/contacts/incidence.hpp"
 #include "core/contacts/loads.hpp"
 #include "core/contacts/loose.hpp"
+#include "core/laws/material.hpp"
 #include "core/particles/clusters.hpp"
 #include "core/particles/spheres.hpp"
 

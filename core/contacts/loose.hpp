@@ -1,10 +1,10 @@
 // One loose contact, whichever law it follows: its constants from two materials, one step of it, and how stiff it may become.
 #pragma once
 
-#include "core/laws/material.hpp"
 #include "core/contacts/hertz_law.hpp"
 #include "core/contacts/linear_law.hpp"
 #include "core/contacts/loose_contact.hpp"
+#include "core/laws/material.hpp"
 
 namespace proveta {
 

@@ -56,7 +56,9 @@ struct Walk {
             }
         }
     }
-    [[nodiscard]] double stored() const { return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0, 1.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s); }
+    [[nodiscard]] double stored() const {
+        return Dempack::stored_energy<double>(p, {k_n, area, 0.0, 0.0, 1.0}, {u, 0.0, {0.0, 0.0, 0.0}}, r.normal, s);
+    }
 
     void keep(const char* name, const char* colour, bool in_shear) {
         if (curve.name.empty()) {

@@ -159,6 +159,45 @@ TEST_CASE("the presets beside the default carry the law they are named after") {
     CHECK(std::isinf(law_of(averaged).sigma_f));
 }
 
+TEST_CASE("a law has its own keys: those of another are refused by name, and a card changed to another law starts from its defaults") {
+    const auto problems = problems_of(R"({"test": "ucs", "material": {"sigma_f": "3 MPa", "lcs": [1, 2, 3]}})");
+    REQUIRE(problems.size() == 2);
+    CHECK(problems[0].text().find("it belongs to law dempack, kratos_dempack; this card has law \"facet\"") != std::string::npos);
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"law": "dempack_released"}})"), "/material/law"));
+    CHECK(has(problems_of(R"({"test": "ucs", "material": {"criterion": "rankine"}})"), "/material/criterion"));
+    const Deck deck = read_deck(Json::parse(R"({"test": "ucs", "material": {"law": "dempack", "tau_f": "9 MPa"}})"), "deck.json");
+    const Material m = to_material(deck.material.values);
+    CHECK(m.as<Dempack>().tau_f == 9e6);
+    CHECK(m.as<Dempack>().sigma_f == 5e6);
+    const Json again = resolved(deck);
+    CHECK_FALSE(again["material"].contains("tensile_strength"));
+    CHECK(read_deck(again, "again.json").material.values.law == "dempack");
+    const Material facets =
+        to_material(read_deck(Json::parse(R"({"test": "ucs", "material": {"strength_factor": 2}})"), "d").material.values);
+    CHECK(facets.as<Facet>().sigma_t == Approx(2.0 * 2.6e6));
+    CHECK(facets.as<Facet>().sigma_c0 == Approx(2.0 * 20e6));
+    CHECK(facets.as<Facet>().shear_ratio_t == Approx(5.7));
+}
+
+TEST_CASE("a pair of materials: weaker and shorter of two facet laws, the first of two different laws") {
+    Material a;
+    Material b;
+    a.bond = Facet::Parameters{};
+    auto weak = Facet::Parameters{};
+    weak.sigma_t = 1e6;
+    weak.exponent = 2.0;
+    weak.first_length = 0.0;
+    b.bond = weak;
+    for (const Material& m : {equivalent(a, b), equivalent(b, a)}) {
+        CHECK(m.as<Facet>().sigma_t == 1e6);
+        CHECK(m.as<Facet>().exponent == Approx(0.5 * (2.0 + Facet::Parameters{}.exponent)));
+        CHECK(m.as<Facet>().first_length == 0.0);
+    }
+    const Material old;
+    CHECK(std::holds_alternative<Dempack::Parameters>(equivalent(a, old).bond));
+    CHECK(std::holds_alternative<Dempack::Parameters>(equivalent(old, a).bond));
+}
+
 TEST_CASE("laws that do not go together are refused, each with its place") {
     CHECK(has(problems_of(R"({"test": "ucs", "material": {"card": "dempack-released", "criterion": "rankine"}})"), "/material/criterion"));
     CHECK(

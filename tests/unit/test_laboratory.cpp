@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/boundaries/platen.hpp"
+#include "lab/axial_results.hpp"
 #include "lab/deck.hpp"
 #include "lab/derived.hpp"
 #include "lab/protocols/registry.hpp"
@@ -125,4 +126,44 @@ TEST_CASE("faces: distance, normal and width of flat, hollow and ring-shaped sur
     const Face strip{Vec3::UnitX(), 1.0, 1.0 / 0.1, 0.02};
     CHECK(strip.foot(-0.1, {-0.095, 0.01, 0.0}).within);
     CHECK_FALSE(strip.foot(-0.1, {0.095, 0.01, 0.0}).within);
+}
+
+TEST_CASE("a curve that falls and recovers has its peak where it broke; ripples and falls of 4 % are none") {
+    const auto loading = [](std::vector<double> deviator) {
+        Loading l;
+        l.deviator = std::move(deviator);
+        for (std::size_t k = 0; k < l.deviator.size(); ++k) {
+            l.row.push_back(k);
+            for (auto* of : {&l.strain, &l.gauge, &l.girth, &l.volume, &l.stress}) {
+                of->push_back(static_cast<double>(k));
+            }
+        }
+        return l;
+    };
+    const Loading recovers = until_recovery(loading({0, 50, 100, 92, 96, 110, 150}));
+    CHECK(recovers.deviator == std::vector<double>{0, 50, 100, 92, 96});
+    CHECK(recovers.strain.size() == 5);
+    CHECK(peak_if_passed(recovers.deviator) == 100.0);
+    CHECK(until_recovery(loading({0, 50, 100, 96, 120, 130})).deviator.size() == 6);
+    CHECK_FALSE(peak_if_passed({0, 50, 100, 96, 120, 130}));
+    CHECK(until_recovery(loading({0, 2, 1, 50, 100, 90})).deviator.size() == 6); // the ripple at the start is no peak
+    CHECK(peak_if_passed({0, 100, 94, 99}) == 100.0);
+    CHECK(until_recovery(loading({})).deviator.empty());
+}
+
+TEST_CASE("the elastic part of a loading ends where a hundredth of the work is lost") {
+    report::Table energy;
+    for (const char* name : {"platens", "pressure", "damage", "plastic", "friction"}) {
+        energy.columns.push_back({name, "J", ""});
+    }
+    energy.rows = {{0, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {6, 4, 0.05, 0.02, 0.02}, {15, 5, 0.1, 0.2, 0.1}, {30, 10, 0.1, 0.2, 0.0}};
+    Loading l;
+    l.row = {0, 1, 2, 3, 4};
+    const std::vector<FailureEvent> events;
+    const report::Table curve;
+    const Shape shape;
+    const Press press;
+    CHECK(elastic_samples({curve, energy, events, shape, press}, l) == 3);
+    l.row = {3, 4};
+    CHECK(elastic_samples({curve, energy, events, shape, press}, l) == 0);
 }

@@ -120,6 +120,12 @@ TEST_CASE("resume: splitting, tension, oedometric and hydrostatic tests") {
     resumed_everywhere("hydrostatic", R"({"loading": {"pressure": "40 MPa"}})", 4, false);
 }
 
+TEST_CASE("resume: facets, with the strain around them, through cycles and a release of pressure") {
+    resumed_everywhere("ucs", R"({"material": null, "loading": {"cycles": [{"axial_strain": 0.001, "unload_to": 0.2}]}})", 6, true);
+    resumed_everywhere("hydrostatic", R"({"material": null, "loading": {"pressure": "60 MPa", "unload_to": 0.3}})", 4, false);
+    resumed_everywhere("ucs", R"({"material": null, "loading": {"rate": "0.3 m/s"}, "specimen": {"seed": 2}})", 4, true);
+}
+
 TEST_CASE("resume: a bed of stones in its membrane") {
     resumed_everywhere("granular-triaxial",
                        R"({"specimen": {"diameter": "120 mm", "height": "240 mm",
