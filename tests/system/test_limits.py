@@ -84,7 +84,7 @@ class Limits(Case):
 
     def test_curves(self):
         for curve in (self.sparse("curve.csv"), "/dev/zero"):
-            content = {"tests": [{"name": "u", "deck": case.SMALL}], "parameters": [{"path": "material.tau_f", "low": 1e7, "high": 2e7}],
+            content = {"tests": [{"name": "u", "deck": case.SMALL}], "parameters": [{"path": "material.tensile_strength", "low": 1e6, "high": 2e6}],
                        "targets": [{"test": "u", "curve": str(curve), "y": "total_stress"}]}
             self.refused("calibrate", self.deck(content, "calibration.json"), "--out", "out", says="more than 64 MiB")
 

@@ -281,11 +281,15 @@ struct Facet {
 
         // Closed: slides over its cohesion and friction; failed: over Coulomb's alone.
         const T pressed = max(r.normal, zero);
-        const T limit =
-            select(was_failed, T(p.mu_d * pressed), T(bond.area * shear_limit(p, bond.strength, T(pressed / bond.area), damage)));
         const T force = k_t * slipped;
-        const auto slides = !opens && (force > limit);
-        const T keep = select(slides, T(limit / max(force, T(smallest))), one);
+        const T least = select(was_failed, T(p.mu_d * pressed), T(bond.strength * cohesion * (1.0 - p.cohesion_loss * damage)));
+        auto slides = !opens && (force > least);
+        T keep = one;
+        if (any_of(slides)) { // the exponential of friction only then
+            const T limit = select(was_failed, least, T(bond.area * shear_limit(p, bond.strength, T(pressed / bond.area), damage)));
+            slides = slides && (force > limit);
+            keep = select(slides, T(limit / max(force, T(smallest))), one);
+        }
         r.normal = select(pulled, T(select(was_failed, zero, share) * r.normal), r.normal);
         for (int c = 0; c < 3; ++c) {
             const T kept = select(fails_now, zero, T(keep * trial[c]));
