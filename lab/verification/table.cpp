@@ -108,8 +108,8 @@ std::string plot_file(const Case& which, std::size_t k) { return k == 0 ? which.
 std::string as_markdown(const std::vector<Finished>& finished, const std::string& folder) {
     std::string out;
     for (const auto& f : finished) {
-        out +=
-            fmt::format("\n## {}\n\n{} Thesis {}. `proveta verify {}`\n\n", f.which->name, f.which->about, f.which->section, f.which->name);
+        out += fmt::format("\n## {}\n\n{}{} `proveta verify {}`\n\n", f.which->name, f.which->about,
+                           f.which->section.empty() ? "" : " Thesis " + f.which->section + ".", f.which->name);
         out += "| quantity | expected | found | error | allowed | thesis | verdict |\n|---|---|---|---|---|---|---|\n";
         for (const auto& row : rows(f)) {
             out += fmt::format("| {} |\n", fmt::join(row.begin() + 1, row.end(), " | "));
