@@ -55,6 +55,6 @@ done
 echo "scene"
 "$build"/proveta scene examples/silo.json --set stop.time=0.02 --threads 2 --quiet --out "$out"/silo >/dev/null
 echo "closed forms"
-"$build"/proveta verify dempack-bond two-body-energy regular-lattice facet-edge-vertex multi-contact rolling-resistance \
+"$build"/proveta verify dempack-bond facet-bond two-body-energy regular-lattice facet-edge-vertex multi-contact rolling-resistance \
     weak-equals-none bonded-cantilever >/dev/null
 [ -z "$labels" ] || ctest --test-dir "$build" --output-on-failure -j $jobs -L "$labels" -LE long
