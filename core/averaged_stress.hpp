@@ -36,7 +36,7 @@ void averaged_criteria(const Bonds& bonds, const std::vector<Mat3>& stress, std:
 
 /// Fails a bond at once at the end of a step of dt seconds: tension and shear are gone, compression stays; the loads get the force after
 /// failure instead of the one before, and the output arrays of Bonds follow, which must be those of this step. Returns the energy that this
-/// took, J, trapezoidal over the step as in the law. law: the bond's.
+/// took, J, trapezoidal over the step as in the law. group: the bond's.
 double fail_bond(const Spheres& spheres, Bonds& bonds, std::size_t bond, const BondGroup& group, FailureMode mode, double dt, Loads& loads);
 
 } // namespace proveta

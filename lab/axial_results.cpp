@@ -69,8 +69,7 @@ std::size_t elastic_samples(const Measured& m, const Loading& l) {
     const auto pressure = m.energy.values("pressure");
     std::size_t n = 0;
     for (const auto row : l.row) {
-        const double work = std::fabs(platens[row] + pressure[row]);
-        if (row >= platens.size() || lost[0][row] + lost[1][row] + lost[2][row] > elastic_loss * work) {
+        if (row >= platens.size() || lost[0][row] + lost[1][row] + lost[2][row] > elastic_loss * std::fabs(platens[row] + pressure[row])) {
             break;
         }
         ++n;

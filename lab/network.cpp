@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <tuple>
 
 #include "core/geometry/hilbert.hpp"
@@ -196,24 +195,18 @@ void refuse_snap_back(const Bonds& bonds, const Deck& deck) {
     }
 }
 
-// Facets beyond the length at which both softening stages fit, and how coarse the specimen is for its cracks.
-LongBonds long_bonds(const Bonds& bonds, const Shape& shape, const Spheres& spheres) {
+// Facets beyond the length at which both softening stages fit.
+LongBonds long_bonds(const Bonds& bonds) {
     LongBonds out;
-    bool some = false;
     for (const auto& block : bonds.blocks) {
         const auto* law = std::get_if<Facet::Constants>(&bonds.groups[block.group].law);
         if (law == nullptr) {
             continue;
         }
         const double allowed = Facet::longest_bond(*law);
-        out.longest_allowed = some ? std::min(out.longest_allowed, allowed) : allowed;
-        some = true;
+        out.longest_allowed = out.longest_allowed > 0.0 ? std::min(out.longest_allowed, allowed) : allowed;
         out.count += static_cast<std::size_t>(std::count_if(bonds.length.begin() + block.begin, bonds.length.begin() + block.end,
                                                             [&](double length) { return length > allowed; }));
-    }
-    if (some) {
-        const double mean = std::accumulate(spheres.radius.begin(), spheres.radius.end(), 0.0) / static_cast<double>(spheres.size());
-        out.fewest_across = std::min(shape.lateral_size(), shape.height) / (2.0 * mean);
     }
     return out;
 }
@@ -260,7 +253,7 @@ Network make_network(const Deck& deck, const Specimen& specimen, const SpecimenS
     out.coordination = 2.0 * static_cast<double>(out.bonds.size()) / static_cast<double>(out.spheres.size());
     refuse_snap_back(out.bonds, deck);
     out.bonds.strength = scattered_strengths(out.spheres, out.bonds, static_cast<std::uint64_t>(deck.specimen.seed));
-    out.long_bonds = long_bonds(out.bonds, specimen.shape, out.spheres);
+    out.long_bonds = long_bonds(out.bonds);
     return out;
 }
 

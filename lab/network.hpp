@@ -22,8 +22,7 @@ struct MaterialCalibration {
 /// Bonds of the law facet that are too long to release their fracture energy (docs/theory.md).
 struct LongBonds {
     std::size_t count = 0;
-    double longest_allowed = 0.0; ///< m
-    double fewest_across = 0.0;   ///< mean sphere diameters in the specimen's smallest dimension; 0: no bond of that law
+    double longest_allowed = 0.0; ///< m; 0: no bond of that law
 };
 
 /// What is known of a network.

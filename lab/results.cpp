@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/input/units.hpp"
@@ -68,10 +69,12 @@ std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, 
                                   "spheres, or more tensile_characteristic_length.",
                                   l.count, bench.model->bonds.size(), input::format_quantity(l.longest_allowed, input::Unit::length)));
     }
-    if (bench.long_bonds.fewest_across > 0.0 && bench.long_bonds.fewest_across < few_across) {
+    const Shape& shape = bench.specimen.shape;
+    const double across = std::min(shape.lateral_size(), shape.height) / (2.0 * bench.statistics.mean_radius);
+    if (bench.long_bonds.longest_allowed > 0.0 && across < few_across) {
         out.push_back(fmt::format("The specimen is only {:.1f} mean spheres wide at its narrowest; strengths scatter, and hold from about "
                                   "{:.0f} on.",
-                                  bench.long_bonds.fewest_across, few_across));
+                                  across, few_across));
     }
     if (const std::string made = coupling_warning(data.energy); !made.empty()) {
         out.push_back(made);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "specimens/random.hpp"
@@ -48,23 +49,25 @@ double weibull(double share, double modulus) { return std::pow(-std::log1p(-shar
 
 std::vector<double> scattered_strengths(const Spheres& spheres, const Bonds& bonds, std::uint64_t seed) {
     std::vector<double> out;
+    std::map<double, WaveField> fields; // by correlation length: materials that share one share the field
     for (const auto& block : bonds.blocks) {
         const auto* law = std::get_if<Facet::Constants>(&bonds.groups[block.group].law);
         if (law == nullptr || law->weibull_modulus <= 0.0) {
             continue;
         }
         out.resize(bonds.size(), 1.0);
-        // One field for all blocks of a length, whatever their order: the stream begins anew.
-        Random random(seed, Stream::strengths);
-        const bool alike = law->correlation_length > 0.0;
-        const WaveField field(alike ? law->correlation_length : 1.0, random);
+        const double length = law->correlation_length;
+        if (length > 0.0 && !fields.contains(length)) {
+            Random random(seed, Stream::strengths);
+            fields.emplace(length, WaveField(length, random));
+        }
         for (auto b = block.begin; b < block.end; ++b) {
             const auto i = static_cast<std::size_t>(bonds.i[b]);
             const auto j = static_cast<std::size_t>(bonds.j[b]);
             double share = 0.5;
-            if (alike) {
+            if (length > 0.0) {
                 const Vec3 middle = spheres.position.at(i) + bonds.share[b] * (spheres.position.at(j) - spheres.position.at(i));
-                share = 0.5 * std::erfc(-field.at(middle) / std::numbers::sqrt2);
+                share = 0.5 * std::erfc(-fields.at(length).at(middle) / std::numbers::sqrt2);
             } else {
                 const auto pair = static_cast<std::uint64_t>(spheres.id[i]) << 32 | static_cast<std::uint32_t>(spheres.id[j]);
                 share = Random(seed ^ pair, Stream::strengths).uniform();
