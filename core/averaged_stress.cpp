@@ -172,12 +172,9 @@ double fail_bond(const Spheres& s, Bonds& b, std::size_t bond, const BondGroup& 
     std::visit(
         [&](const auto& c) {
             using Law = LawOf<decltype(c)>;
-            typename Law::template State<double> state;
-            std::size_t k = 0;
-            Law::members(state, [&](const char*, double& x) { x = b.memory[k++][bond]; });
+            auto state = b.state<Law>(bond);
             Law::fail(state, mode);
-            k = 0;
-            Law::members(state, [&](const char*, const double& x) { b.memory[k++][bond] = x; });
+            b.set_state<Law>(bond, state);
         },
         group.law);
     b.mode[bond] = static_cast<std::uint8_t>(mode);

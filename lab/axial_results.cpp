@@ -131,12 +131,16 @@ std::vector<report::Scalar> cycle_results(const report::Table& curve, double sen
         while (end + 1 < stage.size() && stage[end + 1] == stage[k]) {
             ++end;
         }
-        const double drop = sense * (stress[k - 1] - stress[end]);
-        const double back = sense * (strain[k - 1] - strain[end]);
+        std::size_t top = k - 1; // the platens have a way to go on until they stop
+        for (std::size_t row = k; row <= end; ++row) {
+            top = sense * strain[row] > sense * strain[top] ? row : top;
+        }
+        const double drop = sense * (stress[top] - stress[end]);
+        const double back = sense * (strain[top] - strain[end]);
         const auto n = out.size() + 1;
         out.push_back({fmt::format("unloading_modulus_{}", n), fmt::format("Unloading modulus, cycle {}", n),
                        back > 0.0 ? std::optional(drop / back) : std::nullopt, "Pa",
-                       "secant over the middle gauge from where the platens turned back to where they turned again"});
+                       "secant over the middle gauge from its largest strain to where the platens turned again"});
     }
     return out;
 }

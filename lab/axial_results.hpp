@@ -16,7 +16,7 @@ Press axial_press(const Spheres& spheres, const Shape& shape, double friction, d
 std::vector<report::Scalar> elastic_results(const Loading& loading);
 std::vector<report::Scalar> softening_results(const Loading& loading);
 
-/// Modulus of each unloading: secant from where the platens turned back to where they turned again.
+/// Modulus of each unloading: secant from its largest strain to where the platens turned again.
 std::vector<report::Scalar> cycle_results(const report::Table& curve, double sense);
 
 /// Work of the platens, what cracking took of it, and the cracks' area.

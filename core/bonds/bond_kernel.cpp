@@ -106,7 +106,7 @@ PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const
     bond.volumetric = T(0.0);
     bond.strength = bonds.strength != nullptr ? load<T>(&bonds.strength[b]) : T(1.0);
     if constexpr (Law::asks_volumetric_strain) {
-        if (bonds.volumetric != nullptr) {
+        if (bonds.volumetric != nullptr && Law::beyond_yield(law, bond, kin, state)) {
             bond.volumetric = 0.5 * (gather<T>(bonds.volumetric, &bonds.i[b]) + gather<T>(bonds.volumetric, &bonds.j[b]));
         }
     }
@@ -151,15 +151,18 @@ PROVETA_INLINE void bond_group(const SphereView& s, const BondView& bonds, const
         wear<T>(&bonds.worn[b]);
         m = 0;
         Law::members(state, [&](const char*, const T& x) { store(&bonds.memory[m++][b], x); });
-        const auto in_shear = Law::failed_in_shear(state);
+        store(&bonds.damage_work[b], T(load<T>(&bonds.damage_work[b]) + r.damage_work));
         for (std::size_t k = 0; k < lane_count<T>(); ++k) {
-            const double work = in_lane(r.damage_work, k);
             out.dissipation.plastic += in_lane(r.plastic_work, k);
-            out.dissipation.damage += work;
-            bonds.damage_work[b + k] += work;
-            if (mask_lane(broken, k) && bonds.mode[b + k] == 0) {
-                bonds.mode[b + k] = static_cast<std::uint8_t>(mask_lane(in_shear, k) ? FailureMode::shear : FailureMode::tension);
-                bonds.failures[begin + out.failed++] = static_cast<std::uint32_t>(b + k);
+            out.dissipation.damage += in_lane(r.damage_work, k);
+        }
+        if (any_of(broken)) {
+            const auto in_shear = Law::failed_in_shear(state);
+            for (std::size_t k = 0; k < lane_count<T>(); ++k) {
+                if (mask_lane(broken, k) && bonds.mode[b + k] == 0) {
+                    bonds.mode[b + k] = static_cast<std::uint8_t>(mask_lane(in_shear, k) ? FailureMode::shear : FailureMode::tension);
+                    bonds.failures[begin + out.failed++] = static_cast<std::uint32_t>(b + k);
+                }
             }
         }
     }

@@ -60,6 +60,17 @@ struct Bonds {
     [[nodiscard]] std::size_t size() const { return i.size(); }
     /// u_p of each bond, m.
     [[nodiscard]] const std::vector<double>& plastic() const { return memory[0]; }
+    /// State of a bond's law, but for the slip.
+    template <class Law> [[nodiscard]] auto state(std::size_t bond) const {
+        typename Law::template State<double> state{};
+        std::size_t k = 0;
+        Law::members(state, [&](const char*, double& x) { x = memory[k++][bond]; });
+        return state;
+    }
+    template <class Law> void set_state(std::size_t bond, const typename Law::template State<double>& state) {
+        std::size_t k = 0;
+        Law::members(state, [&](const char*, const double& x) { memory[k++][bond] = x; });
+    }
     /// Damage of a bond whatever its law, 0 intact to 1 failed.
     [[nodiscard]] double damage(std::size_t bond, const BondGroup& group) const;
     /// Name of memory k in checkpoints: what its laws call it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/bonds/bonds.hpp"
 #include "core/contacts/pair_kinematics.hpp"
@@ -24,6 +25,15 @@ std::vector<double> tributary_volumes(const Spheres& s, const Bonds& b) {
     return volume;
 }
 
+VolumeShares volume_shares(const Bonds& b, const std::vector<double>& volume) {
+    VolumeShares g{std::vector<double>(b.size()), std::vector<double>(b.size())};
+    for (std::size_t k = 0; k < b.size(); ++k) {
+        g.i[k] = b.area[k] * b.share[k] / volume[static_cast<std::size_t>(b.i[k])];
+        g.j[k] = b.area[k] * (1.0 - b.share[k]) / volume[static_cast<std::size_t>(b.j[k])];
+    }
+    return g;
+}
+
 void set_dilatation(const Spheres& spheres, const std::vector<double>& modulus, Bonds& b) {
     b.dilatation = {};
     if (std::all_of(modulus.begin(), modulus.end(), [](double m) { return m == 0.0; })) {
@@ -36,13 +46,12 @@ void set_dilatation(const Spheres& spheres, const std::vector<double>& modulus, 
     for (std::size_t k = 0; k < spheres.size(); ++k) {
         d.stiffness[k] = modulus[k] * volume[k];
     }
-    for (auto* array : {&d.g_i, &d.g_j, &d.shift, &d.shift_before, &d.elongation, &d.following}) {
+    for (auto* array : {&d.shift, &d.shift_before, &d.elongation, &d.following}) {
         array->assign(b.size(), 0.0);
     }
-    for (std::size_t k = 0; k < b.size(); ++k) {
-        d.g_i[k] = b.area[k] * b.share[k] / volume[static_cast<std::size_t>(b.i[k])];
-        d.g_j[k] = b.area[k] * (1.0 - b.share[k]) / volume[static_cast<std::size_t>(b.j[k])];
-    }
+    auto g = volume_shares(b, volume);
+    d.g_i = std::move(g.i);
+    d.g_j = std::move(g.j);
 }
 
 void measure_elongations(const Spheres& s, Bonds& b, std::size_t begin, std::size_t end) {

@@ -24,7 +24,7 @@ struct Bonds;
 
 struct Dilatation {
     std::vector<double> stiffness;    ///< lambda V of each sphere, J; empty: no bond has an averaged part
-    std::vector<double> g_i, g_j;     ///< of each bond, in theta of its two spheres, 1/m
+    std::vector<double> g_i, g_j;     ///< `volume_shares`
     std::vector<double> shift;        ///< s of each bond at the last forces, m
     std::vector<double> shift_before; ///< the same one step earlier
     std::vector<double> elongation;   ///< scratch: elastic elongation of each bond without what its own spheres' theta make of it, m
@@ -37,6 +37,12 @@ struct Dilatation {
 /// Volume that each sphere stands for: the cones from its centre to its bonds' areas, sum of A l / 3 (in a plane A l / 2) with l the
 /// lever arm, m3. A sphere without bonds gets its own volume.
 std::vector<double> tributary_volumes(const Spheres& spheres, const Bonds& bonds);
+
+/// Each bond's g_ib and g_jb above, 1/m, of spheres that stand for these volumes, m3.
+struct VolumeShares {
+    std::vector<double> i, j;
+};
+VolumeShares volume_shares(const Bonds& bonds, const std::vector<double>& volume);
 
 /// Gives the bonds' spheres their averaged part: modulus is lambda of each sphere, Pa. With all of it zero there is none.
 void set_dilatation(const Spheres& spheres, const std::vector<double>& modulus, Bonds& bonds);

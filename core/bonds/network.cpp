@@ -45,10 +45,7 @@ double Bonds::damage(std::size_t bond, const BondGroup& group) const {
     return std::visit(
         [&](const auto& c) {
             using Law = LawOf<decltype(c)>;
-            typename Law::template State<double> state;
-            std::size_t k = 0;
-            Law::members(state, [&](const char*, double& x) { x = memory[k++][bond]; });
-            return 1.0 - Law::intact(state);
+            return 1.0 - Law::intact(state<Law>(bond));
         },
         group.law);
 }

@@ -1,5 +1,7 @@
 #include "core/bonds/volumetric_strain.hpp"
 
+#include <utility>
+
 #include "core/bonds/bonds.hpp"
 #include "core/contacts/pair_kinematics.hpp"
 
@@ -8,14 +10,14 @@ namespace proveta {
 VolumetricStrain volumetric_strain(const Spheres& spheres, const Bonds& b) {
     VolumetricStrain out;
     out.strain.assign(spheres.size(), 0.0);
-    out.weight_i.resize(b.size());
-    out.weight_j.resize(b.size());
-    const auto volume = tributary_volumes(spheres, b);
-    const double dimensions = spheres.planar ? 2.0 : 3.0;
-    for (std::size_t k = 0; k < b.size(); ++k) {
-        out.weight_i[k] = b.area[k] * b.share[k] / (dimensions * volume[static_cast<std::size_t>(b.i[k])]);
-        out.weight_j[k] = b.area[k] * (1.0 - b.share[k]) / (dimensions * volume[static_cast<std::size_t>(b.j[k])]);
+    auto g = volume_shares(b, tributary_volumes(spheres, b));
+    for (auto* weights : {&g.i, &g.j}) {
+        for (double& weight : *weights) {
+            weight /= spheres.planar ? 2.0 : 3.0;
+        }
     }
+    out.weight_i = std::move(g.i);
+    out.weight_j = std::move(g.j);
     return out;
 }
 

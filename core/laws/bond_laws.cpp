@@ -101,11 +101,14 @@ Facet::Constants Facet::constants(const Parameters& p, const BondBasis& basis) {
     static_cast<Parameters&>(c) = p;
     static_cast<BondBasis&>(c) = basis;
     c.sigma_s = p.shear_ratio_t * p.sigma_t;
+    c.per_sigma_t = 1.0 / c.sigma_t;
+    c.per_sigma_s = 1.0 / c.sigma_s;
     c.shear_softening = basis.shear_ratio > 0.0 ? p.softening_s / basis.shear_ratio : 0.0;
     if (p.first_length > 0.0) {
         const double ratio = std::max(p.length_t / p.first_length, 1.0 / 0.99) - 1.0;
         c.first_slope = 2.0 / ratio;
         c.first_energy = (1.0 - p.tail) * ratio;
+        c.tail_rate = p.tail * ratio;
     }
     c.first_end = -std::log(p.tail);
     c.root_alpha = std::sqrt(basis.shear_ratio);

@@ -175,8 +175,8 @@ TEST_CASE("a law has its own keys: those of another are refused by name, and a c
     const Material facets =
         to_material(read_deck(Json::parse(R"({"test": "ucs", "material": {"strength_factor": 2}})"), "d").material.values);
     CHECK(facets.as<Facet>().sigma_t == Approx(2.0 * 2.6e6));
-    CHECK(facets.as<Facet>().sigma_c0 == Approx(2.0 * 20e6));
-    CHECK(facets.as<Facet>().shear_ratio_t == Approx(5.7));
+    CHECK(facets.as<Facet>().sigma_c0 == Approx(2.0 * 32e6));
+    CHECK(facets.as<Facet>().shear_ratio_t == Approx(6.25));
 }
 
 TEST_CASE("a pair of materials: weaker and shorter of two facet laws, the first of two different laws") {

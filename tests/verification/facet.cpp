@@ -49,9 +49,9 @@ TEST_CASE("lane functions: against the C library, and the same bits on vectors")
             REQUIRE(e[k] == exp_of(double{x[k]}));
             REQUIRE(l[k] == log_of(double{y[k]}));
             REQUIRE(q[k] == quarter_turn(double{y[k]}, 1.0));
-            REQUIRE(e[k] == Approx(std::exp(x[k])).epsilon(1e-12));
-            REQUIRE(l[k] == Approx(std::log(y[k])).margin(1e-12));
-            REQUIRE(q[k] == Approx(2.0 / std::numbers::pi * std::atan(y[k])).margin(1e-10));
+            REQUIRE(e[k] == Approx(std::exp(x[k])).epsilon(3e-9));
+            REQUIRE(l[k] == Approx(std::log(y[k])).epsilon(0).margin(1e-9));
+            REQUIRE(q[k] == Approx(2.0 / std::numbers::pi * std::atan(y[k])).epsilon(0).margin(1e-9));
         }
     }
     CHECK(exp_of(-1e5) > 0.0); // held, not lost
@@ -179,7 +179,8 @@ TEST_CASE("facet: the strain around spheres is a third of the trace, on the whol
         }
     }
     CHECK(sum / count == Approx(strain.sum() / 3.0).epsilon(0.02)); // single spheres have uneven bonds
-    CHECK_FALSE(set_up(facet_deck(300), make_specimen(facet_deck(300).specimen)).model->bonds.volumetric.active());
+    const Deck own = facet_deck(300, R"({"material": {"volumetric_deviatoric_coupling": 1}})");
+    CHECK_FALSE(set_up(own, make_specimen(own.specimen)).model->bonds.volumetric.active());
 }
 
 TEST_CASE("facet: a pressed specimen breaks, its energy closes, threads change no bit, with the strain around facets too") {

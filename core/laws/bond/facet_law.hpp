@@ -16,8 +16,8 @@
 //   s_0 = 2 s_t / (sin w + sqrt(sin^2 w + 4 alpha cos^2 w / r_st^2)), in stresses the parabola s_T^2 = s_s^2 (1 - s_N / s_t)
 //   one stage    s_b = s_0 exp(-h (R - 1)),        h = r_s/alpha + (2 / (L_t/L - 1) - r_s/alpha) g,  g = (2 w / pi)^n_t
 //   two stages   the same with l_0 for L down to phi s_0: one stress-strain law for facets of every size; then a tail,
-//                phi s_0 exp(-h_2 (R - R_1) / phi),  h_2 with 2 phi^2 / (L_t/L - 1 - (1 - phi)(L_t/l_0 - 1)) in the place of
-//                2 / (L_t/L - 1), so that a facet torn in pure tension releases G_t = s_t^2 L_t / (2 E0) an area whatever its length
+//                phi s_0 exp(-h_2 (R - R_1) / phi),  h_2 = h phi^2 (L_t/l_0 - 1) / (L_t/L - 1 - (1 - phi)(L_t/l_0 - 1)),
+//                so that a facet torn in pure tension releases G_t = s_t^2 L_t / (2 E0) an area whatever its length
 // Compression, e_N < 0:  s_N down to -s_bc(e_DV), e_DV = e_V + beta (e_N - e_V); the rest is plastic                  (eqs. 23 to 26)
 // Shear under compression:  |s_T| <= (1 - c D) s_bs - c D mu_d s_N,
 //   s_bs = s_s + (mu_0 - mu_inf) s_N0 (1 - exp(s_N / s_N0)) - mu_inf s_N                                              (eqs. 27 to 29)
@@ -42,19 +42,19 @@ struct Facet {
     struct Parameters {
         double sigma_t = 2.6e6;       ///< s_t, Pa
         double length_t = 0.5;        ///< L_t, m
-        double shear_ratio_t = 5.7;   ///< r_st = s_s / s_t
-        double exponent = 0.8;        ///< n_t
-        double softening_s = 0.0;     ///< r_s
-        double first_length = 0.0108; ///< l_0, m; 0: one stage
+        double shear_ratio_t = 6.25;  ///< r_st = s_s / s_t
+        double exponent = 0.65;       ///< n_t
+        double softening_s = 0.006;   ///< r_s
+        double first_length = 0.0123; ///< l_0, m; 0: one stage
         double tail = 0.4;            ///< phi
-        double sigma_c0 = 20.0e6;     ///< s_c0, Pa
-        double hardening = 0.35;      ///< H_c0 / E0
+        double sigma_c0 = 32.0e6;     ///< s_c0, Pa
+        double hardening = 0.4;       ///< H_c0 / E0
         double transition = 6.0;      ///< kappa_c0
         double kappa_c1 = 1.0;
         double kappa_c2 = 0.0;
         double kappa_c3 = 0.1;
-        double coupling = 1.0; ///< beta
-        double mu_0 = 0.07;
+        double coupling = 0.5; ///< beta
+        double mu_0 = 0.11;
         double mu_inf = 0.0;
         double sigma_n0 = 600.0e6;       ///< s_N0, Pa
         double cohesion_loss = 0.0;      ///< c
@@ -65,10 +65,13 @@ struct Facet {
     /// Parameters with what follows from them.
     struct Constants : Parameters, BondBasis {
         double sigma_s = 0.0;         ///< s_s, Pa
+        double per_sigma_t = 0.0;     ///< 1 / s_t, 1/Pa
+        double per_sigma_s = 0.0;     ///< 1 / s_s, 1/Pa
         double shear_softening = 0.0; ///< r_s / alpha
         double first_slope = 0.0;     ///< h of the first stage in pure tension
         double first_end = 0.0;       ///< -ln phi
         double first_energy = 0.0;    ///< (1 - phi)(L_t/l_0 - 1)
+        double tail_rate = 0.0;       ///< 2 phi over the first slope
         double root_alpha = 0.0;
         double e_c0 = 0.0;      ///< s_c0 / E0
         double e_c1 = 0.0;      ///< kappa_c0 e_c0
@@ -141,6 +144,12 @@ struct Facet {
     /// Whether the collapse of pores looks at the strain around the facet.
     static bool uses_volumetric_strain(const Parameters& p) { return p.coupling < 1.0 || p.kappa_c2 > 0.0; }
 
+    /// Whether any facet is pressed so that `advance` asks for the strain around it.
+    template <class T>
+    PROVETA_INLINE static bool beyond_yield(const Constants& p, const BondShape<T>& bond, const BondMotion<T>& kin, const State<T>& s) {
+        return any_of(bond.k_n * (kin.shortening - s.plastic) > p.sigma_c0 * bond.area);
+    }
+
     /// -s_bc: compressive stress at which pores collapse, Pa. e_n: normal strain of the facet, e_v: mean normal strain around it, both
     /// positive in tension.
     template <class T> PROVETA_INLINE static T collapse_stress(const Constants& p, const T& e_n, const T& e_v) {
@@ -180,11 +189,13 @@ struct Facet {
             return exp_of(T(-h * (overload - 1.0)));
         }
         const T first = s + (p.first_slope - s) * g;
-        const T along = first * (overload - 1.0);
-        const T spare = max(p.length_t / length - 1.0 - p.first_energy, T(0.01 * p.first_energy));
-        const T second = s + (2.0 * p.tail * p.tail / spare - s) * g;
-        const T past = (along - p.first_end) * second / (p.tail * max(first, T(smallest)));
-        return exp_of(T(-select(along > T(p.first_end), T(p.first_end + past), along)));
+        T along = first * (overload - 1.0);
+        const auto past = along > T(p.first_end);
+        if (any_of(past)) {
+            const T spare = max(p.length_t - (1.0 + p.first_energy) * length, T(0.01 * p.first_energy * length));
+            along = select(past, T(p.first_end + (along - p.first_end) * (p.tail_rate * length / spare)), along);
+        }
+        return exp_of(T(-along));
     }
 
     /// Largest shear stress under compression, Pa: the facet's own, from which damage leads over to a crack's friction. pressed:
@@ -210,14 +221,16 @@ struct Facet {
         // Normal direction. Elastic shortening now and before; negative is elongation.
         const T elastic = kin.shortening - s.plastic;
         r.normal = bond.k_n * elastic;
-        if (any_of(r.normal > p.sigma_c0 * bond.area)) {
+        if (beyond_yield(p, bond, kin, s)) {
             const T bound = bond.area * collapse_stress(p, T(-kin.shortening / bond.length), bond.volumetric);
             const auto yields = r.normal > bound;
-            const T more = select(yields, T((r.normal - bound) / bond.k_n), zero);
-            r.normal = select(yields, bound, r.normal);
-            s.plastic = s.plastic + more;
-            // mean of the force before and after: F1 - k (du - du_p) / 2
-            r.plastic_work = (r.normal - 0.5 * bond.k_n * (kin.approach - more)) * more;
+            if (any_of(yields)) {
+                const T more = select(yields, T((r.normal - bound) / bond.k_n), zero);
+                r.normal = select(yields, bound, r.normal);
+                s.plastic = s.plastic + more;
+                // mean of the force before and after: F1 - k (du - du_p) / 2
+                r.plastic_work = (r.normal - 0.5 * bond.k_n * (kin.approach - more)) * more;
+            }
         }
 
         // Inside the initial boundary and never damaged: nothing more to ask.
@@ -225,10 +238,11 @@ struct Facet {
         for (int c = 0; c < 3; ++c) {
             trial[c] = s.u_t[c] + kin.slip[c];
         }
-        const T tension = max(-r.normal, zero) / (p.sigma_t * bond.area); // s_N / s_t, elastic
-        const T cohesion = p.sigma_s * bond.area;
-        const T strength = bond.strength * cut(p, bond.length);
-        const auto outside = k_t * k_t * dot(trial, trial) > strength * cohesion * cohesion * (strength - tension);
+        // Both parts of the elastic stress over their strengths, times the area.
+        const T tension = max(-r.normal, zero) * p.per_sigma_t;
+        const T in_shear = k_t * p.per_sigma_s;
+        const T capacity = bond.area * (bond.strength * cut(p, bond.length));
+        const auto outside = in_shear * in_shear * dot(trial, trial) > capacity * (capacity - tension);
         if (!any_of(outside) && !any_of(s.damage > zero)) {
             for (int c = 0; c < 3; ++c) {
                 s.u_t[c] = trial[c];
@@ -257,18 +271,19 @@ struct Facet {
             trial[c] = old[c] + kin.slip[c];
         }
         const T share_old = select(damaged && !closing && !(s.closed > zero), T(one - damage_old), one);
-        const T slipped = sqrt(dot(trial, trial));
+        const T slip = dot(trial, trial);
+        const T slipped = sqrt(slip);
 
         // Open: damage.
-        const T in_shear = k_t * slipped / cohesion;
-        const T overload = 0.5 * (tension + sqrt(tension * tension + 4.0 * in_shear * in_shear)) / strength;
+        const T reached = 0.5 * (tension + sqrt(tension * tension + (4.0 * in_shear * in_shear) * slip));
         T damage = damage_old;
         const T across = p.root_alpha * slipped;
-        const auto grows = pulled && (overload > one) && !was_failed;
+        const auto grows = pulled && (reached > capacity) && !was_failed;
         if (any_of(grows)) {
-            const T ratio = max(overload, one);
-            const T left = strength_left(p, bond.length, ratio, quarter_turn(T(max(elongation, zero)), across));
-            damage = select(grows, T(max(damage_old, one - left / ratio)), damage_old);
+            const T most = max(reached, capacity);
+            const T inverse = 1.0 / (most * capacity); // serves R and 1 / R
+            const T left = strength_left(p, bond.length, T(most * most * inverse), quarter_turn(T(max(elongation, zero)), across));
+            damage = select(grows, T(max(damage_old, one - left * (capacity * capacity * inverse))), damage_old);
             damage = select(grows && (left <= T(failed_at)), one, damage);
         }
         const auto fails_now = (damage >= one) && !was_failed;
@@ -282,7 +297,8 @@ struct Facet {
         // Closed: slides over its cohesion and friction; failed: over Coulomb's alone.
         const T pressed = max(r.normal, zero);
         const T force = k_t * slipped;
-        const T least = select(was_failed, T(p.mu_d * pressed), T(bond.strength * cohesion * (1.0 - p.cohesion_loss * damage)));
+        const T least =
+            select(was_failed, T(p.mu_d * pressed), T(bond.strength * bond.area * (p.sigma_s * (1.0 - p.cohesion_loss * damage))));
         auto slides = !opens && (force > least);
         T keep = one;
         if (any_of(slides)) { // the exponential of friction only then
