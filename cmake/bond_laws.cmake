@@ -1,4 +1,4 @@
-# Writes core/laws/bond_law_list.hpp: every header of core/laws/bond is a law, whose struct has the file's name in capitals,
+# Writes core/laws/bond_law_list.hpp: every *_law.hpp in core/laws/bond is a law, whose struct has the file's name in capitals,
 # kratos_dempack_law.hpp that of KratosDempack.
 function(write_bond_law_list folder into)
   file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${folder} ${folder}/*_law.hpp)

@@ -178,12 +178,13 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
     for (std::size_t k = 0; k < l.cycles.size(); ++k) {
         const Cycle c = l.cycles[k];
         const bool by_strain = c.axial_strain.word.empty();
+        const auto done = [=](const BenchView& b) {
+            path->turned_strain = strain(b);
+            path->turned_stress = deviator(b);
+            return by_strain ? path->turned_strain / c.axial_strain.number : path->turned_stress / c.axial_stress.number;
+        };
         stages.push_back({"loading", Stage::Kind::loading, target.share * (by_strain ? c.axial_strain.number / target.strain : 0.3),
-                          control, [=](const BenchView& b) {
-                              path->turned_strain = strain(b);
-                              path->turned_stress = deviator(b);
-                              return by_strain ? path->turned_strain / c.axial_strain.number : path->turned_stress / c.axial_stress.number;
-                          }});
+                          std::make_shared<Braked>(control, done), done});
         stages.push_back({fmt::format("unloading {}", k + 1), Stage::Kind::cycling, target.share * cycle_share,
                           std::make_shared<Unloading>(unloading, pace, target.pressure), [=](const BenchView& b) {
                               return (path->turned_stress - deviator(b)) / ((1.0 - c.unload_to) * path->turned_stress);

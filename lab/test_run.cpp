@@ -199,7 +199,7 @@ class Run {
     }
 
     void step(const Stage& stage, bool due) {
-        const bool measured = due || stage.control->looks(view_);
+        const bool looks = stage.control->looks(view_); // a sample is looked at by people alone: it must not lead the press
         drive_ = stage.control->drive(view_);
         speeds_.assign(model_.walls.platens.size(), 0.0);
         speeds_[0] = 0.5 * bench_.press.sense * drive_.closing;
@@ -214,8 +214,8 @@ class Run {
         }
         stepped_ = true;
         // What is about to be looked at, and perhaps kept, is checked first: a diverged state is not worth keeping.
-        model_.step(speeds_, measured || (model_.steps() + 1) % steps_a_look == 0);
-        stage.control->stepped(view_, measured);
+        model_.step(speeds_, due || looks || (model_.steps() + 1) % steps_a_look == 0);
+        stage.control->stepped(view_, looks);
         record_failures(model_, bench_.press.sense * view_.strain(), instruments_, data_.events);
     }
 

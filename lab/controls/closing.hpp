@@ -1,7 +1,10 @@
 // Platens that close at a steady speed, at one that the test leads itself, or go back to unload.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include "lab/controls/control.hpp"
 #include "lab/controls/rate_control.hpp"
@@ -36,13 +39,31 @@ class LedClosing : public Control {
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
     [[nodiscard]] bool looks(const BenchView& bench) const override;
-    void stepped(const BenchView& bench, bool measured) override;
+    void stepped(const BenchView& bench, bool looked) override;
     void visit_state(const std::string& prefix, StateVisitor& visit) override;
 
   private:
     RateControl rate_;
     double pressure_;
     double origin_ = std::numeric_limits<double>::quiet_NaN(); // strain at which the loading began, once it has
+};
+
+/// Another control, slowed down where the stage comes to its end, so that the platens turn back there and not a ramp later.
+class Braked : public Control {
+  public:
+    /// done: share of the stage that is done, as `Stage::done` has it.
+    Braked(std::shared_ptr<Control> control, std::function<double(const BenchView&)> done)
+        : control_(std::move(control)), done_(std::move(done)) {}
+
+    void begin(const BenchView& bench, const Drive& last) override { control_->begin(bench, last); }
+    [[nodiscard]] Drive drive(const BenchView& bench) override;
+    [[nodiscard]] bool looks(const BenchView& bench) const override { return control_->looks(bench); }
+    void stepped(const BenchView& bench, bool looked) override { control_->stepped(bench, looked); }
+    void visit_state(const std::string& prefix, StateVisitor& visit) override { control_->visit_state(prefix, visit); }
+
+  private:
+    std::shared_ptr<Control> control_;
+    std::function<double(const BenchView&)> done_;
 };
 
 /// The platens go back, at a steady speed in m/s or, with 0, at a twentieth of the strain per crossing of a wave: nothing breaks on

@@ -27,8 +27,8 @@ class Control {
     [[nodiscard]] virtual Drive drive(const BenchView& bench) = 0;
     /// True when the next step is to be measured for `stepped`.
     [[nodiscard]] virtual bool looks(const BenchView&) const { return false; }
-    /// A step was made. measured: the model's measures and ledger are those of this step.
-    virtual void stepped(const BenchView&, bool measured) { static_cast<void>(measured); }
+    /// A step was made. looked: it was one that `looks` asked for, and the model's measures and ledger are its own.
+    virtual void stepped(const BenchView&, bool looked) { static_cast<void>(looked); }
     /// Names what the drive of later steps depends on, each name after `prefix`, so that a stage can be gone on with in its midst.
     virtual void visit_state(const std::string& prefix, StateVisitor& visit) = 0;
 };

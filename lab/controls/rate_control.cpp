@@ -45,7 +45,8 @@ void RateControl::observe(const RateReading& r) {
     } else if (along >= 1.0 && slow_from_ == 0.0) {
         slow_from_ = strain_;
     }
-    const double base = slow_from_ > 0.0 ? slow_from_ : strain_;
+    const double stored = r.plastic > 0.0 ? r.elastic / (r.elastic + r.plastic) : 1.0;
+    const double base = slow_from_ > 0.0 ? slow_from_ : stored * strain_;
     if (strain_ > 0.5 * scale_.first_damage) { // at the start nothing is stored yet, and nothing can break
         const auto limit = [&](double found, double allowed) { return found > allowed ? allowed / found : 1.0; };
         share *=

@@ -5,6 +5,7 @@
 // comes on during one crossing:
 //
 //  * An elastic specimen closing at eta has kinetic over elastic energy eta^2 / 12: eta_fast is bounded by the quasi-static verdict.
+//    What has been crushed stores nothing: where bonds yield in compression, e counts in the share of its work that is elastic.
 //  * A crack needs about one crossing to run; what the stress gains meanwhile, about eta of the strength, is the rate's error. Once bonds
 //    break, eta falls to eta_slow, e being held at what it was then. What leads it is the damage ratio: energy dissipated by damage over
 //    the work put in, of late. It is 0 in the elastic range, whatever the speed, and its order of magnitude at the peak depends little on
@@ -39,6 +40,7 @@ struct RateReading {
     double damage = 0.0;     ///< dissipated by damage so far, J
     double kinetic = 0.0;    ///< energy, J
     double elastic = 0.0;    ///< energy, J
+    double plastic = 0.0;    ///< dissipated by yielding in compression so far, J
     double unbalanced = 0.0; ///< force ratio
     double imbalance = 0.0;  ///< difference of the platens' forces over their mean
 };

@@ -32,7 +32,7 @@ struct MadeUp {
         if (control.looks_at(steps)) {
             const double eta = strain > 0.0 ? rate / scale.wave_speed / strain : 0.0;
             const double elastic = std::max(work - damage, 1e-300);
-            control.observe({strain, work, damage, eta * eta / 12.0 * elastic, elastic, 1e-4});
+            control.observe({strain, work, damage, eta * eta / 12.0 * elastic, elastic, 0.0, 1e-4});
         }
         control.advance(dt);
         ++steps;
@@ -85,12 +85,28 @@ TEST_CASE("rate control: motion and unbalanced forces slow it down, and it never
     const double before = control.rate();
     for (int n = 0; n < 40000; ++n) {
         if (n % 40 == 0) {
-            control.observe({6e-4, bar.work, 0.0, 0.0, 1.0, 0.5});
+            control.observe({6e-4, bar.work, 0.0, 0.0, 1.0, 0.0, 0.5});
         }
         control.advance(dt);
     }
     CHECK(control.rate() < 0.2 * before);
     CHECK(control.rate() > 0.0);
+}
+
+TEST_CASE("rate control: a specimen that is crushed goes on as fast as its elastic strain allows") {
+    // Two bars at the same strain and the same rate so far; the second has stored a quarter of its work.
+    double rate[2];
+    for (const int k : {0, 1}) {
+        RateControl control(scale, 1.0);
+        for (int n = 0; n < 40000; ++n) {
+            if (n % 40 == 0) {
+                control.observe({0.01, 1.0, 0.0, 0.0, k == 0 ? 1.0 : 0.25, k == 0 ? 0.0 : 0.75, 0.0});
+            }
+            control.advance(dt);
+        }
+        rate[k] = control.rate();
+    }
+    CHECK(rate[1] == Approx(0.25 * rate[0]).epsilon(1e-3));
 }
 
 TEST_CASE("rate control: its few numbers are its state") {
