@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/solids/solid_shapes.hpp"
+#include "specimens/solid_import.hpp"
 
 namespace proveta::testing {
 
@@ -79,6 +80,25 @@ inline bool says(const std::string& text, const std::string& part) {
 
 inline bool any_has(const std::vector<std::string>& texts, const std::string& part) {
     return std::any_of(texts.begin(), texts.end(), [&](const std::string& t) { return t.find(part) != std::string::npos; });
+}
+
+/// What the import of a mesh is refused with; empty when it is not.
+inline std::string message(const std::string& file) {
+    try {
+        import_solid(file);
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+/// The text with its first `from` as `to`; throws where there is none.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    if (at == std::string::npos) {
+        throw std::runtime_error("nothing to replace: " + from);
+    }
+    return text.replace(at, from.size(), to);
 }
 
 } // namespace proveta::testing

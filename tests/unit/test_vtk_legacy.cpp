@@ -23,7 +23,7 @@ using namespace proveta::testing;
 namespace {
 
 // Data that have no place in a mesh: numbers of the points and cells, called like sections, and a field of numbers and words.
-template <class Data> void add_data(Data& data) {
+template <class Data> void add_arrays(Data& data) {
     for (auto [name, of] : {std::pair<const char*, vtkFieldData*>{"cells", data.GetPointData()}, {"points", data.GetCellData()}}) {
         const vtkNew<vtkDoubleArray> array;
         array->SetName(name);
@@ -86,7 +86,7 @@ TEST_CASE("VTK's legacy files as VTK writes them, old and new, text and binary")
                 const vtkIdType triangle[] = {4, 2, 1};
                 grid->InsertNextCell(VTK_TETRA, 4, tetrahedron);
                 grid->InsertNextCell(VTK_TRIANGLE, 3, triangle);
-                add_data(*grid.Get());
+                add_arrays(*grid.Get());
                 const auto in = proveta::vtk::read_legacy(written<vtkUnstructuredGridWriter>(*grid.Get(), version, binary, folder),
                                                           "UNSTRUCTURED_GRID");
                 REQUIRE(in.point.size() == 5);
@@ -110,7 +110,7 @@ TEST_CASE("VTK's legacy files as VTK writes them, old and new, text and binary")
                 const vtkNew<vtkCellArray> lines;
                 lines->InsertNextCell(2, triangle);
                 faces->SetLines(lines);
-                add_data(*faces.Get());
+                add_arrays(*faces.Get());
                 const auto surface =
                     proveta::vtk::read_legacy(written<vtkPolyDataWriter>(*faces.Get(), version, binary, folder), "POLYDATA");
                 CHECK(surface.point.size() == 5);
