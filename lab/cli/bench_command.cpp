@@ -16,6 +16,7 @@ namespace proveta {
 namespace {
 
 struct BenchArguments {
+    std::string card = "concrete_sfer";
     std::string specimen;
     std::vector<int> sizes{1000, 4000, 13500, 100000};
     benchmark::Plan plan;
@@ -24,8 +25,7 @@ struct BenchArguments {
 
 // The default test on a packing of its own or on a stored one.
 Deck deck_for(const BenchArguments& a, int spheres) {
-    // Softening by ratio, which bonds of any length can do: sizes go down to a few spheres.
-    input::Json deck = {{"test", "ucs"}, {"material", {{"card", "custom"}}}};
+    input::Json deck = {{"test", "ucs"}, {"material", {{"card", a.card}}}};
     if (a.specimen.empty()) {
         deck["specimen"]["spheres"] = spheres;
     } else {
@@ -74,6 +74,7 @@ void add_bench(CLI::App& app, Command& chosen) {
     auto a = std::make_shared<BenchArguments>();
     auto* command = app.add_subcommand("bench", "measure how fast this machine steps specimens");
     command->add_option("--specimen", a->specimen, "measure a stored specimen instead of packings of the default recipe");
+    command->add_option("--card", a->card, "material card, whose bond law is what is measured")->capture_default_str();
     command->add_option("--sizes", a->sizes, "numbers of spheres of the packings")->delimiter(',')->check(CLI::Range(100, 20000000));
     command->add_option("--threads", a->plan.threads, "thread counts, measured in turn")->delimiter(',')->check(CLI::Range(1, 1024));
     command->add_option("--repeats", a->plan.repeats, "repeats of every measurement; medians are shown")->check(CLI::Range(1, 1000));
