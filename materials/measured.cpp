@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 #include "core/input/text_file.hpp"
+#include "core/input/text_table.hpp"
 
 namespace proveta {
 
@@ -16,65 +18,64 @@ namespace {
 constexpr std::uintmax_t longest = 64 << 20; // bytes, some million rows
 constexpr const char* heading = "confinement_MPa,axial_strain,lateral_strain,axial_stress_MPa,kind";
 
-// The next line that is no comment, without spaces.
-bool next_line(std::istream& in, std::string& line, int& number) {
-    while (std::getline(in, line)) {
-        ++number;
-        std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0; });
+// Lines that are no comments, without blanks and quotes, at most two: the headings and whether anything follows.
+std::vector<std::string> first_lines(const std::string& file) {
+    std::istringstream in(input::as_utf8(input::read_text(file, longest), file));
+    std::vector<std::string> out;
+    for (std::string line; out.size() < 2 && std::getline(in, line);) {
+        std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0 || c == '"'; });
         if (!line.empty() && line.front() != '#') {
-            return true;
+            out.push_back(line);
         }
     }
-    return false;
+    return out;
+}
+
+bool is_heading(std::string line) {
+    std::replace(line.begin(), line.end(), ';', ',');
+    return line == heading;
 }
 
 } // namespace
 
 bool is_measured_curve(const std::string& file) {
-    std::istringstream in(input::read_text(file, longest));
-    std::string line;
-    int number = 0;
-    return next_line(in, line, number) && line == heading;
+    const auto lines = first_lines(file);
+    return !lines.empty() && is_heading(lines.front());
 }
 
 MeasuredCurve load_measured_curve(const std::string& file) {
-    std::istringstream in(input::read_text(file, longest));
-    std::string line;
-    int number = 0;
-    const auto fail = [&](const std::string& what) { throw std::runtime_error(fmt::format("{}: line {}: {}", file, number, what)); };
-    if (!next_line(in, line, number) || line != heading) {
-        fail(std::string("the heading should be ") + heading);
+    const auto lines = first_lines(file);
+    if (lines.empty() || !is_heading(lines.front())) {
+        throw std::runtime_error(fmt::format("{}: the heading should be {}", file, heading));
     }
     MeasuredCurve curve;
-    while (next_line(in, line, number)) {
-        std::vector<std::string> cells(1);
-        for (const char c : line) {
-            c == ',' ? cells.emplace_back() : cells.back() += c;
-        }
-        if (cells.size() != 5) {
-            fail(fmt::format("{} cells, expected 5", cells.size()));
-        }
-        const auto number_in = [&](std::size_t k) {
-            double value = 0.0;
-            const auto [end, error] = std::from_chars(cells[k].data(), cells[k].data() + cells[k].size(), value);
-            if (error != std::errc() || end != cells[k].data() + cells[k].size()) {
-                fail("\"" + cells[k] + "\" is no number");
-            }
-            return value;
+    if (lines.size() < 2) {
+        return curve;
+    }
+    const input::TextTable table(file, longest);
+    const auto column = [&](const char* name) { return table.numbers(table.find(name)); };
+    const auto confinement = column("confinement_MPa");
+    curve.axial_strain = column("axial_strain");
+    curve.lateral_strain = column("lateral_strain");
+    curve.axial_stress = column("axial_stress_MPa");
+    const std::size_t kind = table.find("kind");
+    for (std::size_t k = 0; k < table.rows(); ++k) {
+        const auto fail = [&](const std::string& what) {
+            throw std::runtime_error(fmt::format("{}: line {}: {}", file, table.line(k), what));
         };
-        if (cells[4] != "total" && cells[4] != "deviatoric") {
-            fail("kind \"" + cells[4] + "\" is neither total nor deviatoric");
+        const auto word = table.cell(k, kind);
+        if (word != "total" && word != "deviatoric") {
+            fail(fmt::format("kind \"{}\" is neither total nor deviatoric", word));
         }
-        const double confinement = 1e6 * number_in(0);
-        const bool total = cells[4] == "total";
-        if (!curve.empty() && (confinement != curve.confinement || total != curve.total)) {
+        if (!std::isfinite(confinement[k] + curve.axial_strain[k] + curve.axial_stress[k])) {
+            fail("a value is missing");
+        }
+        if (k > 0 && (1e6 * confinement[k] != curve.confinement || (word == "total") != curve.total)) {
             fail("another confinement or kind than in the rows before; a file holds one curve");
         }
-        curve.confinement = confinement;
-        curve.total = total;
-        curve.axial_strain.push_back(number_in(1));
-        curve.lateral_strain.push_back(cells[2].empty() ? std::nan("") : number_in(2));
-        curve.axial_stress.push_back(1e6 * number_in(3));
+        curve.confinement = 1e6 * confinement[k];
+        curve.total = word == "total";
+        curve.axial_stress[k] *= 1e6;
     }
     return curve;
 }

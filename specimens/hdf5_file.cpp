@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -106,6 +109,9 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
     if (std::error_code error; mode == Mode::read && !std::filesystem::is_regular_file(path, error)) {
         throw std::runtime_error(path + ": no such file"); // HDF5 would wait for a pipe
     }
+    if (mode == Mode::read && ::access(path.c_str(), R_OK) != 0) {
+        throw std::runtime_error(fmt::format("{}: {}", path, std::strerror(errno)));
+    }
     if (mode == Mode::create) {
         // The library does not stand a disk that fills up under it: it never sees one.
         const Handle memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -114,10 +120,13 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
         file_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, memory.id());
     } else {
         check_mark(path);
-        file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+        // Files are written elsewhere and renamed: one that is there is whole, whoever holds a lock on it.
+        const Handle unlocked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+        H5Pset_file_locking(unlocked.id(), false, true);
+        file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, unlocked.id());
     }
     if (file_ < 0) {
-        throw std::runtime_error(path + (mode == Mode::create ? ": cannot be made" : ": missing, cut short, or not an HDF5 file"));
+        throw std::runtime_error(path + (mode == Mode::create ? ": cannot be made" : ": cut short, or not an HDF5 file"));
     }
 }
 

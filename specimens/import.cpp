@@ -3,190 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <limits>
 #include <map>
-#include <sstream>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/files/whole_file.hpp"
-#include "core/input/text_file.hpp"
-#include "specimens/memory.hpp"
+#include "specimens/sphere_file.hpp"
 
 namespace proveta {
 
 namespace {
 
-struct Sphere {
-    Vec3 centre = Vec3::Zero();
-    double radius = 0.0;
-    int group = 0;
-};
-
-// Splits a line at commas, semicolons and white space.
-std::vector<std::string> fields(const std::string& line) {
-    std::vector<std::string> out;
-    std::size_t at = 0;
-    while (at < line.size()) {
-        const auto end = std::min(line.find_first_of(", ;\t\r", at), line.size());
-        if (end > at) {
-            out.push_back(line.substr(at, end - at));
-        }
-        at = end + 1;
-    }
-    return out;
-}
-
-bool number(const std::string& text, double& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-}
-
-// A text file read line by line, which knows where it is.
-class Lines {
-  public:
-    explicit Lines(const std::string& file) : file_(file) {
-        require_file(file);
-        in_ = std::istringstream(input::read_text(file, largest_file));
-    }
-    bool next(std::string& line) {
-        ++number_;
-        return static_cast<bool>(std::getline(in_, line));
-    }
-    [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(fmt::format("{}:{}: {}", file_, number_, what)); }
-    double real(const std::string& text) const {
-        double x = 0.0;
-        if (!number(text, x)) {
-            fail("\"" + text.substr(0, 40) + "\" is not a finite number");
-        }
-        return x;
-    }
-
-    // A number of a node or a group.
-    int whole(const std::string& text) const {
-        const double x = real(text);
-        if (x != std::floor(x) || std::fabs(x) > std::numeric_limits<int>::max()) {
-            fail("\"" + text.substr(0, 40) + "\" is no number of a node or a group");
-        }
-        return static_cast<int>(x);
-    }
-
-  private:
-    std::string file_;
-    std::istringstream in_;
-    int number_ = 0;
-};
-
-std::vector<Sphere> read_table(Lines& in) {
-    std::vector<Sphere> out;
-    std::string line;
-    while (in.next(line)) {
-        const auto f = fields(line.substr(0, line.find('#')));
-        double probe = 0.0;
-        if (f.empty() || (out.empty() && !number(f[0], probe))) {
-            continue; // blank, comment or heading
-        }
-        if (f.size() < 4) {
-            in.fail(fmt::format("{} numbers where x y z r are expected", f.size()));
-        }
-        Sphere s{{in.real(f[0]), in.real(f[1]), in.real(f[2])}, in.real(f[3]), 0};
-        if (f.size() > 4) {
-            s.group = in.whole(f[4]);
-        }
-        if (s.radius <= 0.0) {
-            in.fail(fmt::format("radius {} is not positive", f[3]));
-        }
-        out.push_back(s);
-    }
-    return out;
-}
-
-std::vector<Sphere> in_order(const std::map<int, Sphere>& by_id, Lines& in) {
-    std::vector<Sphere> out;
-    for (const auto& [id, s] : by_id) {
-        if (s.radius > 0.0) {
-            out.push_back(s);
-        }
-    }
-    if (out.empty() && !by_id.empty()) {
-        in.fail("nodes, but no radius for any of them");
-    }
-    return out;
-}
-
-std::vector<Sphere> read_mdpa(Lines& in) {
-    std::map<int, Sphere> by_id;
-    std::string line;
-    std::string block;
-    while (in.next(line)) {
-        const auto f = fields(line.substr(0, line.find("//")));
-        if (f.empty()) {
-            continue;
-        }
-        if (f[0] == "Begin" && f.size() > 1) {
-            block = f[1] + (f[1] == "NodalData" && f.size() > 2 ? " " + f[2] : "");
-        } else if (f[0] == "End") {
-            block.clear();
-        } else if (block == "Nodes" && f.size() >= 4) {
-            by_id[in.whole(f[0])].centre = {in.real(f[1]), in.real(f[2]), in.real(f[3])};
-        } else if ((block == "NodalData RADIUS" || block == "NodalData COHESIVE_GROUP") && f.size() >= 3) {
-            const auto node = by_id.find(in.whole(f[0]));
-            if (node == by_id.end()) {
-                in.fail("node " + f[0] + " was not declared");
-            }
-            if (block == "NodalData RADIUS") {
-                const double value = in.real(f.back());
-                if (value <= 0.0) {
-                    in.fail("radius " + f.back() + " is not positive");
-                }
-                node->second.radius = value;
-            } else {
-                node->second.group = in.whole(f.back());
-            }
-        }
-    }
-    return in_order(by_id, in);
-}
-
-std::vector<Sphere> read_gid(Lines& in) {
-    std::map<int, Sphere> by_id;
-    std::string line;
-    std::string block;
-    bool spheres = false;
-    while (in.next(line)) {
-        const auto f = fields(line.substr(0, line.find('#')));
-        if (f.empty()) {
-            continue;
-        }
-        std::string first = f[0];
-        std::transform(first.begin(), first.end(), first.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        if (first == "mesh") {
-            std::string lower = line;
-            std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-            spheres = lower.find("sphere") != std::string::npos || lower.find("circle") != std::string::npos;
-        } else if (first == "coordinates" || first == "elements") {
-            block = first;
-        } else if (first == "end") {
-            block.clear();
-        } else if (block == "coordinates" && f.size() >= 3) {
-            by_id[in.whole(f[0])].centre = {in.real(f[1]), in.real(f[2]), f.size() > 3 ? in.real(f[3]) : 0.0};
-        } else if (block == "elements" && spheres) {
-            if (f.size() < 3) {
-                in.fail("a sphere element needs number, node and radius");
-            }
-            const auto node = by_id.find(in.whole(f[1]));
-            const double radius = in.real(f[2]);
-            if (node == by_id.end() || radius <= 0.0) {
-                in.fail("sphere " + f[0] + " has an unknown node or no positive radius");
-            }
-            node->second.radius = radius;
-        }
-    }
-    return in_order(by_id, in);
-}
+constexpr double widest = 100.0; // m, as of a recipe
 
 // Cyclic change of axes, so that handedness is kept.
 Vec3 turned(const Vec3& p, char axis) {
@@ -196,38 +27,141 @@ Vec3 turned(const Vec3& p, char axis) {
     return axis == 'y' ? Vec3(p.z(), p.x(), p.y()) : p;
 }
 
-} // namespace
+// Name in the file of the axis that is `k` of the turned ones.
+char name_of(int k, char axis) { return static_cast<char>('x' + (k + (axis == 'x' ? 1 : axis == 'y' ? 2 : 0)) % 3); }
 
-Specimen import_specimen(const std::string& file, const ImportOptions& o) {
-    Lines in(file);
-    std::string ending = std::filesystem::path(file).extension().string();
-    std::vector<Sphere> spheres;
-    if (ending == ".mdpa") {
-        spheres = read_mdpa(in);
-    } else if (ending == ".msh") {
-        spheres = read_gid(in);
-    } else if (ending == ".csv" || ending == ".txt" || ending == ".xyzr" || ending == ".dat") {
-        spheres = read_table(in);
-    } else {
-        throw std::runtime_error(file + ": unknown ending; expected .csv, .txt, .xyzr, .dat, .mdpa or .msh");
+ReadSpheres read(const std::string& file, const std::string& columns) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    if (ending == ".mdpa" || ending == ".msh") {
+        if (!columns.empty()) {
+            throw std::runtime_error(file + ": --columns is for tables; a mesh says itself what its numbers are");
+        }
+        return ending == ".mdpa" ? read_mdpa(file) : read_gid(file);
     }
-    if (spheres.size() < 2) {
-        throw std::runtime_error(fmt::format("{}: {} spheres found; a specimen needs at least 2", file, spheres.size()));
+    if (ending == ".csv" || ending == ".txt" || ending == ".xyzr" || ending == ".dat") {
+        return read_sphere_table(file, columns);
     }
+    throw std::runtime_error(file + ": unknown ending; expected .csv, .txt, .xyzr, .dat, .mdpa or .msh");
+}
+
+// Extent of the spheres, and which of them reaches farthest from the rest.
+struct Extent {
     Vec3 low = Vec3::Constant(1e300);
     Vec3 high = Vec3::Constant(-1e300);
-    for (auto& s : spheres) {
-        s.centre = turned(s.centre, o.axis) * o.scale;
-        s.radius *= o.scale;
-        low = low.cwiseMin(s.centre - Vec3::Constant(s.radius));
-        high = high.cwiseMax(s.centre + Vec3::Constant(s.radius));
+    std::size_t outermost = 0;
+    double rest = 0.0; // the same extent's largest side without that sphere, m
+};
+
+Extent extent_of(const std::vector<ReadSphere>& spheres) {
+    Extent out;
+    std::array<std::vector<double>, 3> along;
+    for (const auto& s : spheres) {
+        for (int c = 0; c < 3; ++c) {
+            along[static_cast<std::size_t>(c)].push_back(s.centre[c]);
+        }
     }
-    Specimen out;
+    Vec3 middle;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto half = along[c].begin() + static_cast<std::ptrdiff_t>(along[c].size() / 2);
+        std::nth_element(along[c].begin(), half, along[c].end());
+        middle[static_cast<Eigen::Index>(c)] = *half;
+    }
+    double farthest = -1.0;
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        const double away = (spheres[k].centre - middle).cwiseAbs().maxCoeff() + spheres[k].radius;
+        if (away > farthest) {
+            farthest = away;
+            out.outermost = k;
+        }
+    }
+    Vec3 low = out.low;
+    Vec3 high = out.high;
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        const Vec3 r = Vec3::Constant(spheres[k].radius);
+        out.low = out.low.cwiseMin(spheres[k].centre - r);
+        out.high = out.high.cwiseMax(spheres[k].centre + r);
+        if (k != out.outermost) {
+            low = low.cwiseMin(spheres[k].centre - r);
+            high = high.cwiseMax(spheres[k].centre + r);
+        }
+    }
+    out.rest = (high - low).maxCoeff();
+    return out;
+}
+
+// Two spheres in one place are one that was written twice.
+void refuse_coincident(const std::string& file, const std::vector<ReadSphere>& spheres) {
+    std::map<std::array<double, 3>, std::size_t> at;
+    std::vector<std::string> pairs;
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        const auto& c = spheres[k].centre;
+        const auto [other, is_new] = at.try_emplace({c.x(), c.y(), c.z()}, k);
+        if (!is_new) {
+            pairs.push_back(spheres[other->second].where + " and " + spheres[k].where);
+        }
+    }
+    if (!pairs.empty()) {
+        throw std::runtime_error(fmt::format("{}: {} spheres lie where another does: {}{}", file, pairs.size(),
+                                             fmt::join(pairs.begin(), pairs.begin() + std::min<std::ptrdiff_t>(5, std::ssize(pairs)), ", "),
+                                             pairs.size() > 5 ? ", ..." : ""));
+    }
+}
+
+// What tells that the axis or the shape is not what was said. sides: across in x and y, and along z, m; reach: of the spheres from the
+// axis.
+std::string misfit(const Vec3& sides, double reach, double grain, char axis) {
+    const auto alike = [&](double a, double b) { return std::fabs(a - b) <= std::max(4.0 * grain, 0.1 * std::max(a, b)); };
+    if (!alike(sides.x(), sides.y())) {
+        const char other = alike(sides.x(), sides.z()) ? name_of(1, axis) : alike(sides.y(), sides.z()) ? name_of(0, axis) : '\0';
+        return fmt::format("a section of {:.4g} x {:.4g} mm is not round; {}", 1e3 * sides.x(), 1e3 * sides.y(),
+                           other != '\0' ? fmt::format("is {} its axis (--axis {})?", other, other) : "--shape prism takes it as it is");
+    }
+    if (reach > 0.5 * std::max(sides.x(), sides.y()) * 1.2 + grain) {
+        return "spheres fill the corners of its section, which is not round; --shape prism takes it as it is";
+    }
+    return "";
+}
+
+} // namespace
+
+Imported import_specimen(const std::string& file, const ImportOptions& o) {
+    Imported result;
+    ReadSpheres found = read(file, o.columns);
+    auto& spheres = found.spheres;
+    const auto fail = [&](const std::string& what) { throw std::runtime_error(file + ": " + what); };
+    if (spheres.size() < 2) {
+        fail(fmt::format("{} spheres found; a specimen needs at least 2", spheres.size()));
+    }
+    if (found.in_metres && o.scale > 0.0 && o.scale != 1.0) {
+        fail(fmt::format("--scale {:.6g}, while its headings say the unit", o.scale));
+    }
+    const double scale = o.scale > 0.0 ? o.scale : 1.0;
+    double grain = 0.0;
+    double matter = 0.0;
+    for (auto& s : spheres) {
+        s.centre = turned(s.centre, o.axis) * scale;
+        s.radius *= scale;
+        grain += s.radius / static_cast<double>(spheres.size());
+        matter += 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius;
+    }
+    refuse_coincident(file, spheres);
+    const Extent extent = extent_of(spheres);
+    const Vec3 sides = extent.high - extent.low;
+    const auto& outermost = spheres[extent.outermost];
+    if (sides.maxCoeff() > 2.0 * extent.rest && spheres.size() > 10) {
+        fail(fmt::format("the sphere of {} lies far from all others: without it they are {:.4g} m long, with it {:.4g} m", outermost.where,
+                         extent.rest, sides.maxCoeff()));
+    }
+    if (sides.maxCoeff() > widest) {
+        fail(fmt::format("spheres over {:.4g} m, {:.4g} m at most; a file in mm needs --scale 0.001", sides.maxCoeff(), widest));
+    }
+
+    Specimen& out = result.specimen;
     out.shape.kind = o.shape == "prism" ? ShapeKind::prism : ShapeKind::cylinder;
-    out.shape.height = o.height > 0.0 ? o.height : high.z() - low.z();
-    out.shape.width = o.width > 0.0 ? o.width : high.x() - low.x();
-    out.shape.depth = o.depth > 0.0 ? o.depth : high.y() - low.y();
-    const Vec3 middle = 0.5 * (low + high);
+    out.shape.height = o.height > 0.0 ? o.height : sides.z();
+    out.shape.width = o.width > 0.0 ? o.width : sides.x();
+    out.shape.depth = o.depth > 0.0 ? o.depth : sides.y();
+    const Vec3 middle = 0.5 * (extent.low + extent.high);
     double across = 0.0;
     for (auto& s : spheres) {
         s.centre -= Vec3(middle.x(), middle.y(), middle.z() - 0.5 * out.shape.height);
@@ -237,8 +171,36 @@ Specimen import_specimen(const std::string& file, const ImportOptions& o) {
         out.group.push_back(s.group);
     }
     out.shape.diameter = o.diameter > 0.0 ? o.diameter : 2.0 * across;
-    out.recipe = {{"imported_from", std::filesystem::path(file).filename().string()}, {"axis", std::string(1, o.axis)}, {"scale", o.scale}};
-    return out;
+    if (out.shape.kind == ShapeKind::cylinder && spheres.size() > 50) {
+        const std::string wrong = misfit(sides, across, grain, o.axis);
+        if (!wrong.empty()) {
+            fail(wrong);
+        }
+    }
+    if (matter > out.shape.volume()) {
+        fail(fmt::format("the spheres' volumes are {:.4g} of the {} that they should fill{}", matter / out.shape.volume(), out.shape.text(),
+                         "; if the sizes are diameters or stand in another column: --columns x,y,z,d"));
+    }
+
+    result.notes = std::move(found.notes);
+    result.warnings = std::move(found.warnings);
+    if (out.shape.height > 5.0 && !found.in_metres && o.scale <= 0.0) {
+        result.warnings.push_back(fmt::format("{:.4g} m high: if the file is in mm, give --scale 0.001", out.shape.height));
+    }
+    const auto compare = [&](const char* what, double said, double fitted) {
+        if (said > 0.0 && std::fabs(said - fitted) > std::max(2.0 * grain, 0.02 * fitted)) {
+            result.warnings.push_back(fmt::format("{} of {:.4g} mm where the spheres take {:.4g} mm", what, 1e3 * said, 1e3 * fitted));
+        }
+    };
+    compare("height", o.height, sides.z());
+    if (out.shape.kind == ShapeKind::cylinder) {
+        compare("diameter", o.diameter, 2.0 * across);
+    } else {
+        compare("width", o.width, sides.x());
+        compare("depth", o.depth, sides.y());
+    }
+    out.recipe = {{"imported_from", std::filesystem::path(file).filename().string()}, {"axis", std::string(1, o.axis)}, {"scale", scale}};
+    return result;
 }
 
 void export_csv(const Specimen& s, const std::string& file) {

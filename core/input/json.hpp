@@ -19,7 +19,7 @@ struct Problem {
     std::string source; ///< file
     std::string path;   ///< JSON pointer, "" for the whole file
     std::string found;
-    std::string expected;
+    std::string expected;   ///< empty: `found` says it all
     std::string suggestion; ///< may be empty
 
     [[nodiscard]] std::string text() const;

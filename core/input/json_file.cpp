@@ -14,7 +14,7 @@ std::string Problem::text() const {
     if (!path.empty()) {
         out += (out.empty() ? "" : ": ") + path;
     }
-    out += fmt::format(": found {}; expected {}", found, expected);
+    out += expected.empty() ? ": " + found : fmt::format(": found {}; expected {}", found, expected);
     if (!suggestion.empty()) {
         out += "; " + suggestion;
     }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <boost/locale/encoding_errors.hpp>
+#include <boost/locale/encoding_utf.hpp>
+
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -32,6 +35,31 @@ std::string read_text(const std::string& file, std::uintmax_t most) {
         }
     }
     return text;
+}
+
+std::string as_utf8(std::string text, const std::string& file) {
+    if (text.starts_with("\xEF\xBB\xBF")) {
+        text.erase(0, 3);
+        return text;
+    }
+    const bool little = text.starts_with("\xFF\xFE");
+    if (!little && !text.starts_with("\xFE\xFF")) {
+        return text;
+    }
+    std::u16string wide;
+    for (std::size_t k = 2; k + 1 < text.size(); k += 2) {
+        const auto low = static_cast<unsigned char>(text[little ? k : k + 1]);
+        const auto high = static_cast<unsigned char>(text[little ? k + 1 : k]);
+        wide += static_cast<char16_t>(low + 256 * high);
+    }
+    try {
+        if (text.size() % 2 != 0) {
+            throw boost::locale::conv::conversion_error();
+        }
+        return boost::locale::conv::utf_to_utf<char>(wide, boost::locale::conv::stop);
+    } catch (const boost::locale::conv::conversion_error&) {
+        throw std::runtime_error(file + ": begins as UTF-16 and is cut short or broken");
+    }
 }
 
 } // namespace proveta::input

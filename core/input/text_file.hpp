@@ -10,4 +10,8 @@ namespace proveta::input {
 /// bytes, which is all that is read of it then.
 std::string read_text(const std::string& file, std::uintmax_t most);
 
+/// Text without a byte-order mark; UTF-16, told by its mark, made UTF-8. Throws std::runtime_error, naming the file, where that is cut or
+/// broken.
+std::string as_utf8(std::string text, const std::string& file);
+
 } // namespace proveta::input

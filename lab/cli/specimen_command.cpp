@@ -1,6 +1,7 @@
 // proveta specimen make|info|export|import
 #include <fmt/format.h>
 #include <omp.h>
+#include <spdlog/spdlog.h>
 
 #include <memory>
 
@@ -65,7 +66,11 @@ template <class F> void on_file(const std::string& file, F&& action) {
     } catch (const input::InputError&) {
         throw;
     } catch (const std::runtime_error& e) {
-        throw input::InputError({{file, "", e.what(), "a file that can be read or written", ""}});
+        std::string what = e.what(); // which may begin with the file's name
+        if (what.starts_with(file)) {
+            what.erase(0, what.find_first_not_of(": ", file.size()));
+        }
+        throw input::InputError({{file, "", what, "", ""}});
     }
 }
 
@@ -146,7 +151,7 @@ void add_export(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Co
 
 void add_import(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Command& chosen) {
     auto* command =
-        group.add_subcommand("import", "read spheres from .csv/.txt/.xyzr (x y z r), Kratos .mdpa or GiD .msh and store them (.h5)");
+        group.add_subcommand("import", "read spheres from a table (.csv/.txt/.xyzr/.dat), Kratos .mdpa or GiD .msh and store them (.h5)");
     command->add_option("file", a->in, "file to read")->required();
     command->add_option("out", a->out, "file to write (.h5)")->required();
     command->add_option("--axis", a->axis, "the file's axis that is the specimen's")->check(CLI::IsMember({"x", "y", "z"}));
@@ -157,14 +162,23 @@ void add_import(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Co
                                         {"--height", &a->import.height}}) {
         command->add_option(option, *value, "nominal size in m (default: fitted to the spheres)")->check(CLI::PositiveNumber);
     }
-    command->add_option("--scale", a->import.scale, "metres per unit of the file")->check(CLI::PositiveNumber);
+    command->add_option("--scale", a->import.scale, "metres per unit of the file (default: what its headings say, or 1)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--columns", a->import.columns,
+                        "what a table's columns are, in their order: x,y,z,r or x,y,z,d,-,group (d: diameter, -: not used)");
     command->callback([a, &chosen] {
         chosen = [a] {
             a->import.axis = a->axis.front();
             on_file(a->in, [&] {
-                const Specimen s = import_specimen(a->in, a->import);
-                save_specimen(s, a->out);
-                print_info(s);
+                const Imported found = import_specimen(a->in, a->import);
+                for (const auto& note : found.notes) {
+                    fmt::print("{}\n", note);
+                }
+                for (const auto& warning : found.warnings) {
+                    spdlog::warn("{}", warning);
+                }
+                save_specimen(found.specimen, a->out);
+                print_info(found.specimen);
             });
             return 0;
         };

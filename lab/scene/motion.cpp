@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/input/column_heading.hpp"
+#include "core/input/text_table.hpp"
+#include "core/model.hpp"
 #include "lab/scene/vectors.hpp"
-#include "lab/trials/csv.hpp"
 
 namespace proveta {
 
@@ -64,58 +66,76 @@ namespace {
 // An expression of t. muParser keeps a pointer to its variable: not to be moved.
 class Expression {
   public:
-    explicit Expression(const std::string& text) {
+    Expression(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
         parser_.DefineConst("pi", std::numbers::pi);
         parser_.DefineVar("t", &t_);
-        parser_.SetExpr(text);
-        parser_.Eval(); // complains now, not later
+        parser_.SetExpr(text_);
+        parser_.Eval(); // complains of what it cannot read now, not later
     }
     Expression(const Expression&) = delete;
     Expression& operator=(const Expression&) = delete;
 
+    // Throws NumericalFailure where it has no value, as at a pole.
     double at(double t) {
         t_ = t;
-        return parser_.Eval();
+        const double value = parser_.Eval();
+        if (!std::isfinite(value)) {
+            throw NumericalFailure(fmt::format("{} = \"{}\" is {} at t = {:.6g} s", name_, text_, value, t));
+        }
+        return value;
     }
 
   private:
+    std::string name_, text_;
     double t_ = 0.0;
     mu::Parser parser_;
 };
 
 std::string path_of(const std::string& file, const std::string& folder) { return (std::filesystem::path(folder) / file).string(); }
 
-// Column of a table by its name, or nothing.
-std::vector<double> column(const report::Table& table, const std::string& name) {
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-        if (table.columns[k].name == name) {
-            return table.values(name);
-        }
-    }
-    return {};
-}
+// Places over time: t, and any of x, y, z, wx, wy, wz; what the table has not stays empty.
+struct Places {
+    std::vector<double> t;
+    std::vector<double> value[6];
+};
 
-report::Table read_places(const std::string& file) {
-    report::Table table = read_csv(file);
-    for (const auto& row : table.rows) {
-        if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); })) {
-            throw std::runtime_error(file + ": holds a value that is not finite");
+Places read_places(const std::string& file) {
+    const input::TextTable table(file);
+    constexpr const char* names[] = {"x", "y", "z", "wx", "wy", "wz"};
+    std::vector<bool> used(table.columns().size(), false);
+    const auto column = [&](const std::string& name, Unit unit) -> std::vector<double> {
+        const auto found = input::match_column(table, {name, {name}, unit, 1.0});
+        if (!found) {
+            return {};
+        }
+        used[found->index] = true;
+        auto values = table.numbers(found->index);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            values[k] *= found->factor;
+            if (!std::isfinite(values[k])) {
+                throw std::runtime_error(fmt::format("{}: line {}: {} is missing", file, table.line(k), name));
+            }
+        }
+        return values;
+    };
+    Places out;
+    out.t = column("t", Unit::time);
+    if (out.t.size() < 2 || !std::is_sorted(out.t.begin(), out.t.end(), std::less_equal<>())) {
+        throw std::runtime_error(
+            fmt::format("{}: needs a column \"t\" of two or more ascending times in s; it has {}", file, table.description()));
+    }
+    for (int c = 0; c < 6; ++c) {
+        out.value[c] = column(names[c], c < 3 ? Unit::length : Unit::angular_velocity);
+    }
+    for (std::size_t c = 0; c < used.size(); ++c) {
+        if (!used[c]) {
+            throw std::runtime_error(fmt::format("{}: column \"{}\" is none of t, x, y, z, wx, wy, wz", file, table.columns()[c].heading));
         }
     }
-    const auto t = column(table, "t");
-    if (t.size() < 2 || !std::is_sorted(t.begin(), t.end(), std::less_equal<>())) {
-        throw std::runtime_error(file + ": needs a column \"t\" of two or more ascending times in s");
-    }
-    constexpr const char* known[] = {"t", "x", "y", "z", "wx", "wy", "wz"};
-    for (const auto& c : table.columns) {
-        if (std::find(std::begin(known), std::end(known), c.name) == std::end(known)) {
-            throw std::runtime_error(fmt::format("{}: column \"{}\" is none of t, x, y, z, wx, wy, wz", file, c.name));
-        }
-    }
-    if (table.columns.size() < 2) {
+    if (table.columns().size() < 2) {
         throw std::runtime_error(file + ": has times but no column of what moves");
     }
-    return table;
+    return out;
 }
 
 class Constant : public SurfaceMotion {
@@ -130,8 +150,8 @@ class Constant : public SurfaceMotion {
 class OfTime : public SurfaceMotion {
   public:
     explicit OfTime(const MotionInput& m)
-        : x_(m.velocity_of_time[0]), y_(m.velocity_of_time[1]), z_(m.velocity_of_time[2]), wx_(m.spin_of_time[0]), wy_(m.spin_of_time[1]),
-          wz_(m.spin_of_time[2]) {}
+        : x_("velocity_x", m.velocity_of_time[0]), y_("velocity_y", m.velocity_of_time[1]), z_("velocity_z", m.velocity_of_time[2]),
+          wx_("spin_x", m.spin_of_time[0]), wy_("spin_y", m.spin_of_time[1]), wz_("spin_z", m.spin_of_time[2]) {}
     SurfaceVelocity at(double t, double dt, const Surface&, const Spheres&) override {
         const double middle = t + 0.5 * dt;
         return {{x_.at(middle), y_.at(middle), z_.at(middle)}, {wx_.at(middle), wy_.at(middle), wz_.at(middle)}};
@@ -144,14 +164,7 @@ class OfTime : public SurfaceMotion {
 // Where a step ends, the surface is where the table says, whatever the step.
 class Table : public SurfaceMotion {
   public:
-    explicit Table(const std::string& file) {
-        const auto table = read_places(file);
-        t_ = column(table, "t");
-        constexpr const char* names[] = {"x", "y", "z", "wx", "wy", "wz"};
-        for (int c = 0; c < 6; ++c) {
-            value_[c] = column(table, names[c]);
-        }
-    }
+    explicit Table(const std::string& file) : places_(read_places(file)) {}
     SurfaceVelocity at(double t, double dt, const Surface&, const Spheres&) override {
         SurfaceVelocity v;
         for (int c = 0; c < 3; ++c) {
@@ -163,20 +176,20 @@ class Table : public SurfaceMotion {
 
   private:
     [[nodiscard]] double value(int c, double t) const {
-        const auto& y = value_[c];
+        const auto& y = places_.value[c];
+        const auto& times = places_.t;
         if (y.empty()) {
             return 0.0;
         }
-        const auto after = std::upper_bound(t_.begin(), t_.end(), t);
-        if (after == t_.begin() || after == t_.end()) {
-            return after == t_.begin() ? y.front() : y.back();
+        const auto after = std::upper_bound(times.begin(), times.end(), t);
+        if (after == times.begin() || after == times.end()) {
+            return after == times.begin() ? y.front() : y.back();
         }
-        const auto k = static_cast<std::size_t>(after - t_.begin());
-        return y[k - 1] + (y[k] - y[k - 1]) * (t - t_[k - 1]) / (t_[k] - t_[k - 1]);
+        const auto k = static_cast<std::size_t>(after - times.begin());
+        return y[k - 1] + (y[k] - y[k - 1]) * (t - times[k - 1]) / (times[k] - times[k - 1]);
     }
 
-    std::vector<double> t_;
-    std::vector<double> value_[6];
+    Places places_;
 };
 
 // Goes by what the contacts' own stiffness says is lacking, over so many steps that they can follow; the bed behind them gives way more, so
@@ -225,17 +238,25 @@ std::unique_ptr<SurfaceMotion> untimed(const MotionInput& m, const std::string& 
 
 } // namespace
 
-void check_motion(const MotionInput& m, const std::string& folder, const std::string& source, const std::string& path,
+void check_motion(const MotionInput& m, double duration, const std::string& folder, const std::string& source, const std::string& path,
                   input::Problems& problems) {
     if (m.kind == "expression") {
         constexpr const char* names[] = {"velocity", "spin"};
         for (int k = 0; k < 6; ++k) {
             const std::string& text = k < 3 ? m.velocity_of_time[k] : m.spin_of_time[k - 3];
+            const std::string name = fmt::format("{}_{}", names[k / 3], "xyz"[k % 3]);
+            const char* expected = "an expression of t, such as \"0.1*sin(2*pi*50*t)\"";
             try {
-                Expression{text};
+                Expression expression(name, text);
+                constexpr int looks = 1000;
+                const double last = m.end.word.empty() ? std::min(m.end.number, duration) : duration;
+                for (int n = 0; n <= looks; ++n) {
+                    (void)expression.at(std::lerp(m.begin, std::max(m.begin, last), static_cast<double>(n) / looks));
+                }
             } catch (const mu::ParserError& error) {
-                problems.push_back({source, fmt::format("{}/{}_{}", path, names[k / 3], "xyz"[k % 3]), "\"" + text + "\"",
-                                    "an expression of t, such as \"0.1*sin(2*pi*50*t)\"", error.GetMsg()});
+                problems.push_back({source, path + "/" + name, "\"" + text + "\"", expected, error.GetMsg()});
+            } catch (const NumericalFailure& error) {
+                problems.push_back({source, path + "/" + name, error.what(), "a finite value throughout the scene", ""});
             }
         }
     }

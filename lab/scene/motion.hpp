@@ -29,8 +29,9 @@ struct MotionInput {
 
 void declare(input::Visitor& v, MotionInput& motion);
 
-/// What is wrong with a motion beyond single values: expressions that do not parse, tables that cannot be read. path: its JSON pointer.
-void check_motion(const MotionInput& motion, const std::string& folder, const std::string& source, const std::string& path,
+/// What is wrong with a motion beyond single values: expressions that do not parse or have no value at some time, tables that cannot be
+/// read. duration: of the scene, s; path: the motion's JSON pointer.
+void check_motion(const MotionInput& motion, double duration, const std::string& folder, const std::string& source, const std::string& path,
                   input::Problems& problems);
 
 /// A motion at work. One object a surface, used in the order of time.

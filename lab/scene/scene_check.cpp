@@ -135,7 +135,7 @@ class Check {
                 say(at + "/inner_radius", fmt::format("{:.6g} m", s.inner_radius), fmt::format("below the radius, {:.6g} m", s.radius));
             }
         }
-        check_motion(s.motion, scene_.folder, scene_.source, at + "/motion", problems_);
+        check_motion(s.motion, scene_.stop.time, scene_.folder, scene_.source, at + "/motion", problems_);
     }
 
     void particles(const ParticleInput& p, const std::string& at) {

@@ -119,8 +119,8 @@ TEST_CASE("a plate is flat, stored as a plate, and a lattice is regular") {
 
 TEST_CASE("sphere meshes of other programs are read, with any axis") {
     const TemporaryFolder folder;
-    const auto csv = folder.file("a.csv", "x,y,z,r\n0,0,0,0.5\n# a comment\n0;2;0;0.5\n0 1 0 0.4\n");
-    const Specimen a = import_specimen(csv, {.axis = 'y'});
+    const auto csv = folder.file("a.csv", "x,y,z,r\n0,0,0,0.5\n# a comment\n0,2,0,0.5\n0,1,0,0.4\n");
+    const Specimen a = import_specimen(csv, {.axis = 'y'}).specimen;
     CHECK(a.size() == 3);
     CHECK(a.shape.height == Approx(3.0));
     CHECK(a.spheres.centre.z[0] == Approx(0.5));
@@ -129,14 +129,14 @@ TEST_CASE("sphere meshes of other programs are read, with any axis") {
     const auto mdpa = folder.file("b.mdpa", "Begin Nodes\n 7 0 0 0\n 3 0 0 2\nEnd Nodes\nBegin Elements X// c\n1 0 7\nEnd Elements\n"
                                             "Begin NodalData RADIUS // c\n 7 0 0.5\n 3 0 0.25\nEnd NodalData\n"
                                             "Begin NodalData COHESIVE_GROUP\n 7 0 1\n 3 0 2\nEnd NodalData\n");
-    const Specimen b = import_specimen(mdpa, {});
+    const Specimen b = import_specimen(mdpa, {}).specimen;
     REQUIRE(b.size() == 2);
     CHECK(b.group == std::vector<int>{2, 1});
     CHECK(b.spheres.radius[0] == 0.25);
 
     const auto msh = folder.file("c.msh", "MESH dimension 3 ElemType Sphere Nnode 1\nCoordinates\n1 0 0 0\n2 0 0 1\nEnd Coordinates\n"
                                           "Elements\n1 1 0.5\n2 2 0.5\nEnd Elements\n");
-    CHECK(import_specimen(msh, {}).shape.height == Approx(2.0));
+    CHECK(import_specimen(msh, {}).specimen.shape.height == Approx(2.0));
 }
 
 TEST_CASE("broken sphere meshes are refused with file and line") {
@@ -149,10 +149,10 @@ TEST_CASE("broken sphere meshes are refused with file and line") {
         }
         return std::string("no error");
     };
-    CHECK(message("a.csv", "0,0,0,0.5\n0,0,2,-1\n").find("a.csv:2: radius -1 is not positive") != std::string::npos);
-    CHECK(message("b.csv", "0,0,0,0.5\n0,0,nan,1\n").find("b.csv:2") != std::string::npos);
-    CHECK(message("c.csv", "0,0,0,0.5\n0,0,1\n").find("3 numbers") != std::string::npos);
+    CHECK(message("a.csv", "0,0,0,0.5\n0,0,2,-1\n").find("a.csv: line 2: radius -1 is not positive") != std::string::npos);
+    CHECK(message("b.csv", "0,0,0,0.5\n0,0,nan,1\n").find("b.csv: line 2: a place or a size is missing") != std::string::npos);
+    CHECK(message("c.csv", "0,0,0,0.5\n0,0,1\n").find("c.csv: line 2: 3 cells where the other rows have 4") != std::string::npos);
     CHECK(message("d.csv", "0,0,0,0.5\n").find("at least 2") != std::string::npos);
     CHECK(message("e.stl", "solid\n").find("unknown ending") != std::string::npos);
-    CHECK(message("f.mdpa", "Begin Nodes\n1 0 0 0\n2 0 0 1\nEnd Nodes\n").find("no radius") != std::string::npos);
+    CHECK(message("f.mdpa", "Begin Nodes\n1 0 0 0\n2 0 0 1\nEnd Nodes\n").find("2 of 2 nodes have no radius: 1, 2") != std::string::npos);
 }

@@ -1,0 +1,252 @@
+#include "core/input/text_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "core/input/column_heading.hpp"
+#include "core/input/suggest.hpp"
+#include "core/input/text_file.hpp"
+
+namespace proveta::input {
+
+namespace {
+
+constexpr std::size_t looked_at = 400; // lines from which dialect and columns are made out
+
+// A comment, or nothing at all; "#N/A" is a missing cell.
+bool is_comment(std::string_view line) {
+    const auto s = without_blanks(line);
+    return s.empty() || (s.front() == '#' && !s.starts_with("#N/A") && !s.starts_with("#NA")) || s.starts_with("//");
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+    std::vector<std::string_view> out;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find_first_of("\r\n", at), text.size());
+        out.push_back(text.substr(at, end - at));
+        at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
+    }
+    return out;
+}
+
+// "x [mm] y [mm]" in a file where blanks separate: a unit belongs to the word before it. Where that does not give as many cells as there
+// are columns, they stay as they were.
+void rejoin(std::vector<std::string_view>& cells, std::size_t width) {
+    std::vector<std::string_view> joined;
+    for (const auto cell : cells) {
+        if (!joined.empty() && (cell.starts_with('[') || cell.starts_with('('))) {
+            joined.back() = {joined.back().data(), static_cast<std::size_t>(cell.data() + cell.size() - joined.back().data())};
+        } else {
+            joined.push_back(cell);
+        }
+    }
+    if (joined.size() == width) {
+        cells = std::move(joined);
+    }
+}
+
+} // namespace
+
+void TextTable::fail(std::size_t line, const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}: line {}: {}", file_, line, what));
+}
+
+void TextTable::split(std::size_t line, std::vector<std::string_view>& cells) const {
+    if (!dialect_.split(lines_[line], cells)) {
+        fail(line + 1, "a quotation mark that never closes");
+    }
+}
+
+TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(file)), text_(read_text(file_, most)) {
+    text_ = as_utf8(std::move(text_), file_);
+    lines_ = lines_of(text_);
+    std::vector<std::size_t> first;
+    for (std::size_t k = 0; k < lines_.size() && first.size() < looked_at; ++k) {
+        if (!is_comment(lines_[k])) {
+            first.push_back(k);
+        }
+    }
+    std::vector<std::string_view> sample;
+    for (const auto k : first) {
+        sample.push_back(lines_[k]);
+    }
+    dialect_ = dialect_of(sample);
+
+    // How many columns, and which are of numbers: as most of the first lines have it.
+    std::vector<std::vector<std::string_view>> rows(first.size());
+    std::map<std::size_t, std::size_t> lines_with;
+    double value = 0.0;
+    for (std::size_t k = 0; k < first.size(); ++k) {
+        split(first[k], rows[k]);
+        const bool any = std::any_of(rows[k].begin(), rows[k].end(), [&](auto cell) { return dialect_.kind(cell, value) == Cell::number; });
+        lines_with[rows[k].size()] += any ? 1 : 0;
+    }
+    std::size_t width = 0;
+    for (const auto& cells : rows) { // among equals that of the first line
+        width = lines_with[cells.size()] > (width > 0 ? lines_with[width] : 0) ? cells.size() : width;
+    }
+    if (width == 0) {
+        throw std::runtime_error(file_ + ": no rows of numbers");
+    }
+    std::vector<std::size_t> numbers(width, 0);
+    std::size_t alike = 0;
+    for (const auto& cells : rows) {
+        alike += cells.size() == width ? 1 : 0;
+        for (std::size_t c = 0; c < width && cells.size() == width; ++c) {
+            numbers[c] += dialect_.kind(cells[c], value) != Cell::text ? 1 : 0;
+        }
+    }
+    for (const auto n : numbers) {
+        numeric_.push_back(2 * n >= alike);
+    }
+
+    // Rows of numbers begin where a line has them in all columns that should; what stands above names the columns.
+    const auto is_row = [&](const std::vector<std::string_view>& cells) {
+        bool any = false;
+        for (std::size_t c = 0; c < width && cells.size() == width; ++c) {
+            const Cell found = dialect_.kind(cells[c], value);
+            if (numeric_[c] && found == Cell::text) {
+                return false;
+            }
+            any = any || (numeric_[c] && found == Cell::number);
+        }
+        return any;
+    };
+    std::size_t begin = 0;
+    while (begin < rows.size() && !is_row(rows[begin])) {
+        ++begin;
+    }
+    if (dialect_.separator == ' ') {
+        for (std::size_t k = 0; k < begin; ++k) {
+            rejoin(rows[k], width);
+        }
+    }
+    // A line without any number names; one with a number in it, under such a line, is a row that is wrong.
+    const auto is_heading = [&](const std::vector<std::string_view>& cells) {
+        return cells.size() == width &&
+               std::none_of(cells.begin(), cells.end(), [&](auto c) { return dialect_.kind(c, value) == Cell::number; });
+    };
+    std::size_t names_end = begin;
+    while (names_end > 0 && !is_heading(rows[names_end - 1])) {
+        --names_end;
+    }
+    std::vector<std::vector<std::string_view>> above;
+    for (std::size_t k = names_end; k > 0 && is_heading(rows[k - 1]) && above.size() < 2; --k) {
+        above.insert(above.begin(), rows[k - 1]);
+    }
+    columns_.resize(width);
+    name_columns(above);
+    if (above.empty() && begin > 0) {
+        passed_over_ = fmt::format("line {} was not taken for headings: it has {} cells where the rows have {}", first[begin - 1] + 1,
+                                   rows[begin - 1].size(), width);
+    }
+    const std::size_t start = names_end > 0 ? names_end : begin;
+    if (start >= first.size()) {
+        throw std::runtime_error(file_ + ": no rows of numbers");
+    }
+
+    std::vector<std::string_view> cells;
+    for (std::size_t k = first[start]; k < lines_.size(); ++k) {
+        if (is_comment(lines_[k])) {
+            continue;
+        }
+        split(k, cells);
+        if (cells.size() == width + 1 && cells.back().empty() && dialect_.separator != ' ') {
+            cells.pop_back(); // a separator at the end of the line
+        }
+        if (cells.size() != width) {
+            const bool commas = dialect_.separator == ',' && cells.size() > width;
+            fail(k + 1, fmt::format("{} cells where the other rows have {}{}", cells.size(), width,
+                                    commas ? "; if decimals have a comma here, separate cells by semicolons or tabs" : ""));
+        }
+        cells_.insert(cells_.end(), cells.begin(), cells.end());
+        line_.push_back(k + 1);
+    }
+    lines_.clear();
+    lines_.shrink_to_fit();
+}
+
+void TextTable::name_columns(const std::vector<std::vector<std::string_view>>& above) {
+    headings_ = !above.empty();
+    if (!headings_) {
+        return;
+    }
+    const bool units = above.size() == 2 && is_row_of_units(above.back());
+    const auto& headings = units ? above.front() : above.back();
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+        columns_[c] = column_of_heading(std::string(headings[c]));
+        if (units && columns_[c].unit.empty()) {
+            columns_[c].unit = unit_in_brackets(std::string(above.back()[c]));
+        }
+    }
+}
+
+std::vector<double> TextTable::numbers(std::size_t column) const {
+    std::vector<double> out(rows());
+    for (std::size_t r = 0; r < rows(); ++r) {
+        const auto found = cell(r, column);
+        const Cell is = dialect_.kind(found, out[r]);
+        if (is == Cell::text) {
+            const auto& heading = columns_[column].heading;
+            fail(line_[r],
+                 fmt::format("\"{}\" is no number{}", found.substr(0, 40), heading.empty() ? "" : ", in column \"" + heading + "\""));
+        }
+        out[r] = is == Cell::missing ? std::numeric_limits<double>::quiet_NaN() : out[r];
+    }
+    return out;
+}
+
+std::size_t TextTable::find(const std::string& wanted) const {
+    std::vector<std::size_t> found;
+    for (const auto member : {&TextColumn::heading, &TextColumn::name}) {
+        for (std::size_t c = 0; c < columns_.size() && headings_; ++c) {
+            if (columns_[c].*member == wanted) {
+                found.push_back(c);
+            }
+        }
+        if (!found.empty()) {
+            break;
+        }
+    }
+    if (found.empty()) {
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            if (wanted == std::to_string(c + 1)) {
+                found.push_back(c);
+            }
+        }
+    }
+    if (found.size() > 1) {
+        throw std::runtime_error(fmt::format("{}: \"{}\" is the heading of columns {} and {}; ask for one of them by its number", file_,
+                                             wanted, found[0] + 1, found[1] + 1));
+    }
+    if (found.empty()) {
+        std::vector<std::string> names;
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            names.push_back(headings_ ? "\"" + columns_[c].heading + "\"" : std::to_string(c + 1));
+        }
+        const std::string near = nearest(wanted, names);
+        throw std::runtime_error(fmt::format("{}: no column \"{}\"; there are {}{}{}", file_, wanted, fmt::join(names, ", "),
+                                             near.empty() ? "" : "; did you mean " + near + "?",
+                                             passed_over_.empty() ? "" : "; " + passed_over_));
+    }
+    return found.front();
+}
+
+std::string TextTable::description() const {
+    std::vector<std::string> names;
+    for (const auto& c : columns_) {
+        names.push_back(c.heading);
+    }
+    return fmt::format("{} columns{} and {} rows; {}", columns_.size(), headings_ ? fmt::format(" ({})", fmt::join(names, ", ")) : "",
+                       rows(), dialect_.text());
+}
+
+} // namespace proveta::input

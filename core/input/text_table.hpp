@@ -1,0 +1,66 @@
+// Tables of numbers in text files, as measuring programs, spreadsheets and people write them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/input/table_dialect.hpp"
+
+namespace proveta::input {
+
+/// A column as the file names it.
+struct TextColumn {
+    std::string heading; ///< as written, without quotes; empty where the file has no headings
+    std::string name;    ///< the heading without its unit
+    std::string unit;    ///< as written, in the heading or in a row of units; empty: none is said
+};
+
+/// A text file of rows and columns. What it finds out by itself: whether commas, semicolons, tabs or blanks separate; whether decimals have
+/// a point or a comma; a byte-order mark, UTF-16; quotes; lines of comments (#) and of other matter before the headings; headings and a row
+/// of units under them; which columns are numbers. Empty cells and NaN, NA, N/A, #N/A, null, - are missing.
+class TextTable {
+  public:
+    /// Reads a file. Throws std::runtime_error naming file, line and what is wrong: no rows, a row with other columns than the rest, quotes
+    /// that never close, a decimal comma where commas separate too. most: bytes, more are refused.
+    explicit TextTable(std::string file, std::uintmax_t most = std::uintmax_t{64} << 20);
+
+    [[nodiscard]] const std::string& file() const { return file_; }
+    [[nodiscard]] const std::vector<TextColumn>& columns() const { return columns_; }
+    [[nodiscard]] std::size_t rows() const { return line_.size(); }
+    [[nodiscard]] bool has_headings() const { return headings_; }
+    /// Line of the file, from 1, in which a row stands.
+    [[nodiscard]] std::size_t line(std::size_t row) const { return line_[row]; }
+    [[nodiscard]] std::string_view cell(std::size_t row, std::size_t column) const { return cells_[row * columns_.size() + column]; }
+    /// Whether most of a column's cells are numbers.
+    [[nodiscard]] bool is_number(std::size_t column) const { return numeric_[column]; }
+
+    /// A column's numbers; missing cells are NaN. Throws std::runtime_error naming the line of a cell that is neither.
+    [[nodiscard]] std::vector<double> numbers(std::size_t column) const;
+
+    /// Index of a column by its heading, its name without unit, or its number from 1. Throws std::runtime_error when there is none, naming
+    /// those that there are, or when two have that heading.
+    [[nodiscard]] std::size_t find(const std::string& wanted) const;
+
+    /// "2 columns (strain, stress) and 30 rows; semicolons separate, decimals have a comma".
+    [[nodiscard]] std::string description() const;
+
+  private:
+    [[noreturn]] void fail(std::size_t line, const std::string& what) const;
+    void split(std::size_t line, std::vector<std::string_view>& cells) const;
+    void name_columns(const std::vector<std::vector<std::string_view>>& above);
+
+    std::string file_;
+    std::string text_;
+    std::vector<std::string_view> lines_; // of the whole file
+    TableDialect dialect_;
+    bool headings_ = false;
+    std::string passed_over_; // why what stands above the rows does not name the columns
+    std::vector<TextColumn> columns_;
+    std::vector<bool> numeric_;
+    std::vector<std::string_view> cells_; // row by row, into text_
+    std::vector<std::size_t> line_;
+};
+
+} // namespace proveta::input
