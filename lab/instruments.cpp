@@ -95,12 +95,8 @@ Mat3 Instruments::mean_stress(const Model& model, const Shape::Region& region) c
     return 0.5 * (mean + mean.transpose());
 }
 
-report::Table Instruments::empty_curve() const {
-    report::Table t;
-    t.notes = {"Compression is positive in stress and strain; lateral strain is positive when the specimen gets thinner.",
-               area_now_ ? "Stress is force over the mean section at the time: volume inside the membrane over the height."
-                         : "Stress is force over the nominal area before the test."};
-    t.columns = {
+std::vector<report::Column> Instruments::curve_columns(bool area_now) {
+    return {
         {"time", "s", "time since the start of loading"},
         {"stage", "", "number of the stage, from 0"},
         {"phase", "", "0 preparing the loading, 1 loading, 2 unloading or reloading"},
@@ -111,8 +107,8 @@ report::Table Instruments::empty_curve() const {
         {"gauge_axial_strain", "", "shortening of the middle gauge length along the loading"},
         {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin, or of the gauge across the loading"},
         {"volumetric_strain", "",
-         area_now_ ? "loss of the volume inside the membrane over that at the start"
-                   : "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
+         area_now ? "loss of the volume inside the membrane over that at the start"
+                  : "gauge axial strain plus twice the circumferential strain (of a plate: plus once)"},
         {"force_bottom", "N", "force on the first (lower) platen"},
         {"force_top", "N", "force on the second (upper) platen"},
         {"inner_strain_xx", "", "mean strain of the inner region, from the displacements of its spheres"},
@@ -131,6 +127,14 @@ report::Table Instruments::empty_curve() const {
         {"broken_in_shear", "", "of these in shear"},
         {"unbalanced_ratio", "", "sum over spheres of the unbalanced force over the sum of bond forces"},
         {"rate", "m/s", "closing speed of the platens, negative when they part"}};
+}
+
+report::Table Instruments::empty_curve() const {
+    report::Table t;
+    t.notes = {"Compression is positive in stress and strain; lateral strain is positive when the specimen gets thinner.",
+               area_now_ ? "Stress is force over the mean section at the time: volume inside the membrane over the height."
+                         : "Stress is force over the nominal area before the test."};
+    t.columns = curve_columns(area_now_);
     if (volume_ > 0.0) {
         t.columns.push_back({"membrane_volumetric_strain", "", "loss of the volume inside the membrane over that at the start"});
         t.columns.push_back(
@@ -142,7 +146,7 @@ report::Table Instruments::empty_curve() const {
     return t;
 }
 
-report::Table Instruments::empty_energy() const {
+report::Table Instruments::empty_energy() {
     report::Table t;
     t.notes = {"Energy ledger: every term is accumulated from its own mechanism, none by difference."};
     t.columns = {{"time", "s", "time since the start of loading"},

@@ -17,7 +17,9 @@ class Instruments {
 
     /// Columns of curve.csv and of energy.csv.
     [[nodiscard]] report::Table empty_curve() const;
-    [[nodiscard]] report::Table empty_energy() const;
+    static report::Table empty_energy();
+    /// The columns of every test's curve. area_now: stress is force over the mean section at the time.
+    static std::vector<report::Column> curve_columns(bool area_now);
 
     /// What the run knows of where it stands.
     struct Mark {

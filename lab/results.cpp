@@ -145,4 +145,24 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     return r;
 }
 
+std::vector<report::Scalar> possible_results(const Deck& deck) {
+    report::Table curve;
+    curve.columns = Instruments::curve_columns(false);
+    const report::Table energy = Instruments::empty_energy();
+    auto out = deck.protocol->results({curve, energy, {}, shape_of(deck.specimen), Press{}, 0.0, 0.0});
+    std::vector<std::vector<report::Scalar>> all{rate_results(curve, 1.0)};
+    if (!deck.protocol->granular()) {
+        all.push_back(acoustic_results({}));
+    }
+    for (auto&& more : all) {
+        out.insert(out.end(), more.begin(), more.end());
+    }
+    const input::Json loading = resolved(deck)["loading"];
+    const std::size_t cycles = loading.contains("cycles") ? loading["cycles"].size() : 0;
+    for (std::size_t k = 1; k <= cycles; ++k) {
+        out.push_back({fmt::format("unloading_modulus_{}", k), "", std::nullopt, "Pa", ""});
+    }
+    return out;
+}
+
 } // namespace proveta

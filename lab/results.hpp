@@ -17,4 +17,7 @@ AcousticRule acoustic_rule(const Bench& bench);
 report::Record make_record(const Deck& deck, const Bench& bench, const TestData& data, const std::vector<AcousticEvent>& acoustic,
                            const std::string& status);
 
+/// What results a deck's test may have, with their units and without values.
+std::vector<report::Scalar> possible_results(const Deck& deck);
+
 } // namespace proveta

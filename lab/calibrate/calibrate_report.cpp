@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "lab/citation.hpp"
@@ -179,10 +180,11 @@ std::vector<Plot> curve_plots(const std::vector<Target>& targets, const Calibrat
         const double sy = scale_of(t.input.y);
         Plot plot{t.input.test + (t.input.fitted() ? " (fitted)" : " (predicted)"), axis_of(t.input.x), axis_of(t.input.y), {}, {}};
         Curve wanted{t.input.kind, {}, {}, "#111111", CurveStyle::points};
+        const auto& all = t.file.measured;
         Curve found{"this card, mean over specimens", {}, {}, t.input.fitted() ? "#1f4e79" : "#c0392b"};
-        for (std::size_t k = 0; k < t.curve.x.size(); k += t.curve.x.size() / 60 + 1) { // so many that they can be told apart
-            wanted.x.push_back(sx * t.curve.x[k]);
-            wanted.y.push_back(sy * t.curve.y[k]);
+        for (std::size_t k = 0; k < all.x.size(); k += all.x.size() / 60 + 1) { // so many that they can be told apart
+            wanted.x.push_back(sx * all.x[k]);
+            wanted.y.push_back(sy * all.y[k]);
         }
         for (std::size_t k = 0; c.found && k < c.curve.x.size(); ++k) {
             found.x.push_back(sx * c.curve.x[k]);
@@ -199,11 +201,9 @@ TextTable statement_table(const std::vector<Target>& targets) {
     TextTable table{"What the targets are", {{"Target", "Use", "Kind", "Source", "How it was read"}}};
     for (const auto& t : targets) {
         const auto& in = t.input;
-        const std::string how =
-            in.is_curve()
-                ? fmt::format("columns {} and {}, times {} and {}; strain offset {:.3g} taken off; toe {}; x from {:.4g} to {:.4g}",
-                              in.x_column, in.y_column, in.x_factor, in.y_factor, in.x_offset, in.toe, t.curve.x.front(), t.curve.x.back())
-                : "as given";
+        const std::string how = in.is_curve() ? fmt::format("{}; strain offset {:.3g} taken off; x from {:.4g} to {:.4g}",
+                                                            fmt::join(t.file.notes, "; "), in.x_offset, t.curve.x.front(), t.curve.x.back())
+                                              : "as given";
         table.rows.push_back({in.title(), in.use, in.kind, in.source, how});
     }
     return table;
@@ -274,6 +274,11 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
             r.warnings.push_back(fmt::format("Each of these targets is {}, not a measurement: {}.", what, fmt::join(titles, "; ")));
         }
     }
+    for (const auto& t : targets) {
+        for (const auto& warning : t.file.warnings) {
+            r.warnings.push_back(t.input.title() + ": " + warning + ".");
+        }
+    }
     if (std::any_of(targets.begin(), targets.end(), [](const Target& t) { return !t.input.fitted(); })) {
         r.overview.push_back(targets_table(targets, outcome, folders, false));
     }
@@ -330,10 +335,20 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
     return r;
 }
 
-input::Json calibration_summary(const CalibrationPlan& plan, const report::Record& record, const input::Json& card) {
+input::Json calibration_summary(const CalibrationPlan& plan, const std::vector<Target>& targets, const report::Record& record,
+                                const input::Json& card) {
     input::Json j{{"title", plan.input.title}, {"status", record.status}, {"stopped_by", record.stopped_by}};
     for (const auto& s : record.results) {
         j["results"][s.name] = {{"value", s.value ? input::Json(*s.value) : input::Json()}, {"unit", s.unit}, {"formula", s.formula}};
+    }
+    for (const auto& t : targets) {
+        if (t.input.is_curve()) {
+            j["curves"].push_back({{"target", t.input.title()},
+                                   {"file", std::filesystem::path(t.input.curve).filename().string()},
+                                   {"read", t.file.notes},
+                                   {"toe_strain", t.file.toe},
+                                   {"warnings", t.file.warnings}});
+        }
     }
     j["evidence"] = card["evidence"];
     j["warnings"] = record.warnings;

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/input/suggest.hpp"
+#include "core/input/units.hpp"
 #include "lab/provenance.hpp"
+#include "lab/results.hpp"
 #include "lab/trials/decks.hpp"
 
 namespace proveta {
@@ -132,6 +135,70 @@ void check_target(const TargetInput& t, const std::string& at, const std::vector
     }
 }
 
+// The unit that a result's SI unit is one of.
+std::optional<Unit> dimension_of(const std::string& si) {
+    for (const Unit u : {Unit::none, Unit::length, Unit::area, Unit::pressure, Unit::density, Unit::velocity, Unit::time,
+                         Unit::energy_per_area, Unit::angle, Unit::force, Unit::rate}) {
+        if (input::si_unit(u) == si) {
+            return u;
+        }
+    }
+    return std::nullopt;
+}
+
+// Whether a result can be negative in the sense of its test.
+bool may_be_negative(const std::string& result) {
+    for (const char* part : {"slope", "toe", "volumetric", "circumferential", "lateral", "dilat", "magnitude", "angle", "completeness"}) {
+        if (result.find(part) != std::string::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// A result that the test cannot have, or that cannot have such a value, is said before anything runs.
+void check_result(const TargetInput& t, const Json& written, const std::string& at, const std::vector<TrialTest>& tests,
+                  const std::string& file, input::Problems& problems) {
+    const auto test = std::find_if(tests.begin(), tests.end(), [&](const TrialTest& one) { return one.name == t.test; });
+    const bool said = std::any_of(problems.begin(), problems.end(), [&](const input::Problem& p) { return p.path.starts_with(at + "/"); });
+    if (t.result.empty() || test == tests.end() || said) {
+        return;
+    }
+    std::vector<report::Scalar> results;
+    try {
+        results = possible_results(read_deck(test->deck, file));
+    } catch (const input::InputError&) {
+        return; // said elsewhere
+    }
+    const auto result = std::find_if(results.begin(), results.end(), [&](const auto& r) { return r.name == t.result; });
+    if (result == results.end()) {
+        std::vector<std::string> names;
+        for (const auto& r : results) {
+            names.push_back(r.name);
+        }
+        const std::string near = input::nearest(t.result, names);
+        problems.push_back({file, at + "/result", "\"" + t.result + "\"",
+                            fmt::format("a result of a {} test: {}", input::text_at(test->deck, "test"), fmt::join(names, ", ")),
+                            near.empty() ? "" : "did you mean \"" + near + "\"?"});
+        return;
+    }
+    const auto dimension = dimension_of(result->unit);
+    const std::string value = input::text_at(written, "value");
+    if (!value.empty() && dimension) {
+        if (const auto quantity = input::parse_quantity(value, *dimension); !quantity.problem.empty()) {
+            problems.push_back(
+                {file, at + "/value", "\"" + value + "\"",
+                 fmt::format("a {}, which is {}", t.result, result->unit.empty() ? "a number without a unit" : "in " + result->unit),
+                 quantity.problem});
+            return;
+        }
+    }
+    if (t.value < 0.0 && !may_be_negative(t.result)) {
+        problems.push_back({file, at + "/value", value.empty() ? fmt::format("{:.6g}", t.value) : "\"" + value + "\"",
+                            fmt::format("a positive {}: results are in the sense of the test", t.result), ""});
+    }
+}
+
 // A manifest is of a calibration to the curves that there were: others make another one.
 void check_curves(const CalibrationPlan& plan, const std::vector<std::string>& curves, input::Problems& problems) {
     for (const auto& file : curves) {
@@ -179,6 +246,7 @@ CalibrationPlan read_calibration(const std::string& file) {
     for (std::size_t k = 0; k < in.targets.size(); ++k) {
         auto& t = in.targets[k];
         check_target(t, fmt::format("/targets/{}", k), plan.tests, file, problems);
+        check_result(t, plan.written["targets"][k], fmt::format("/targets/{}", k), plan.tests, file, problems);
         if (t.is_curve()) {
             t.curve = (std::filesystem::absolute(plan.source).parent_path() / t.curve).lexically_normal().string();
             curves.push_back(t.curve);

@@ -8,8 +8,6 @@
 #include <numeric>
 
 #include "lab/derived.hpp"
-#include "lab/trials/csv.hpp"
-#include "materials/measured.hpp"
 
 namespace proveta {
 
@@ -22,103 +20,6 @@ constexpr std::array before_the_peak{"strength",           "strain_at_peak",    
                                      "tangent_modulus",    "secant_modulus",    "average_modulus",        "young_modulus_platens",
                                      "poisson_ratio",      "peak_total_stress", "peak_deviatoric_stress", "toe_strain",
                                      "constrained_modulus"};
-
-std::size_t column_of(const report::Table& table, const std::string& name) {
-    for (std::size_t k = 0; k < table.columns.size(); ++k) {
-        if (table.columns[k].name == name) {
-            return k;
-        }
-    }
-    std::vector<std::string> names;
-    for (const auto& c : table.columns) {
-        names.push_back(c.name);
-    }
-    throw std::runtime_error(fmt::format("no column \"{}\"; there are {}", name, fmt::join(names, ", ")));
-}
-
-using Points = std::vector<std::pair<double, double>>;
-
-// The columns of any CSV file.
-Points points_of_table(const TargetInput& t) {
-    const report::Table table = read_csv(t.curve);
-    const std::size_t x = column_of(table, t.x_column);
-    const std::size_t y = column_of(table, t.y_column);
-    Points points;
-    for (const auto& row : table.rows) {
-        if (std::isfinite(row[x]) && std::isfinite(row[y])) { // files may say "nan", which has no place in an order
-            points.emplace_back(t.x_factor * row[x], t.y_factor * row[y]);
-        }
-    }
-    return points;
-}
-
-// An experiment's file says itself what its columns are, and whether its stress is total or deviatoric.
-Points points_of_experiment(const TargetInput& t) {
-    const MeasuredCurve m = load_measured_curve(t.curve);
-    if (m.empty()) {
-        throw std::runtime_error("an empty slot: its measured points have to be filled in first");
-    }
-    const auto values = [&](const std::string& name) {
-        std::vector<double> out;
-        for (std::size_t k = 0; k < m.axial_strain.size(); ++k) {
-            const double more = name == "total_stress" && !m.total       ? m.confinement
-                                : name == "deviatoric_stress" && m.total ? -m.confinement
-                                                                         : 0.0;
-            out.push_back(name == "axial_strain" || name == "gauge_strain" ? m.axial_strain[k]
-                          : name == "circumferential_strain"               ? m.lateral_strain[k]
-                          : name == "volumetric_strain"                    ? m.axial_strain[k] + 2.0 * m.lateral_strain[k]
-                                                                           : m.axial_stress[k] + more);
-        }
-        return out;
-    };
-    const auto x = values(t.x);
-    const auto y = values(t.y);
-    Points points;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        if (std::isfinite(x[k]) && std::isfinite(y[k])) {
-            points.emplace_back(x[k], y[k]);
-        }
-    }
-    return points;
-}
-
-SampledCurve load_curve(const TargetInput& t) {
-    Points points = is_measured_curve(t.curve) ? points_of_experiment(t) : points_of_table(t);
-    for (auto& point : points) {
-        point.first -= t.x_offset;
-    }
-    std::stable_sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    SampledCurve curve;
-    for (const auto& [px, py] : points) {
-        curve.x.push_back(px);
-        curve.y.push_back(py);
-    }
-    if (t.toe == "removed") {
-        const auto line = line_between(curve.x, curve.y, 0.1, 1.0 / 3.0);
-        if (!line || !(line->slope > 0.0)) {
-            throw std::runtime_error("no straight part between 10 % and 33 % of the peak, from which the toe could be removed");
-        }
-        const double toe = -line->intercept / line->slope;
-        for (double& px : curve.x) {
-            px -= toe;
-        }
-    }
-    SampledCurve out;
-    for (std::size_t k = 0; k < curve.x.size(); ++k) {
-        const bool counts = (!t.from.word.empty() || curve.x[k] >= t.from.number) && (!t.to.word.empty() || curve.x[k] <= t.to.number);
-        if (counts && (out.x.empty() || curve.x[k] > out.x.back())) {
-            out.x.push_back(curve.x[k]);
-            out.y.push_back(curve.y[k]);
-        }
-    }
-    if (out.x.size() < 3) {
-        throw std::runtime_error(fmt::format("{} points in the range that counts, at least 3 are wanted", out.x.size()));
-    }
-    if (std::all_of(out.y.begin(), out.y.end(), [](double v) { return v == 0.0; })) {
-        throw std::runtime_error("all values are 0");
-    }
-    return out;
-}
 
 // The value at x of a curve with rising x; its end values beyond.
 double value_at(const SampledCurve& c, double x) {
@@ -196,16 +97,24 @@ std::vector<Target> make_targets(const CalibrationPlan& plan) {
     std::vector<Target> out;
     input::Problems problems;
     for (std::size_t k = 0; k < plan.input.targets.size(); ++k) {
-        Target t{plan.input.targets[k], plan.input.targets[k].weight, {}};
+        Target t{plan.input.targets[k], plan.input.targets[k].weight, {}, {}};
+        std::string kind;
+        double last = std::numeric_limits<double>::infinity(); // a strain that the user has the test end at
         for (const auto& test : plan.tests) {
-            t.weight *= test.name == t.input.test ? test.weight : 1.0;
+            if (test.name == t.input.test) {
+                t.weight *= test.weight;
+                kind = input::text_at(test.deck, "test");
+                const input::Json::json_pointer stop("/loading/stop/axial_strain");
+                last = t.input.x == "axial_strain" && test.written.contains(stop) ? test.deck.value(stop, last) : last;
+            }
         }
         try {
             if (t.input.is_curve()) {
-                t.curve = load_curve(t.input);
+                t.file = load_target_curve(t.input, kind, last);
+                t.curve = t.file.compared;
             }
         } catch (const std::runtime_error& e) {
-            problems.push_back({plan.source, fmt::format("/targets/{}/curve", k), e.what(), "a CSV file with two columns of numbers", ""});
+            problems.push_back({plan.source, fmt::format("/targets/{}/curve", k), e.what(), "a table that holds the measured curve", ""});
         }
         out.push_back(std::move(t));
     }

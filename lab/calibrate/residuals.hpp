@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lab/calibrate/input.hpp"
-#include "lab/series/mean_curve.hpp"
+#include "lab/calibrate/target_curve.hpp"
 #include "lab/trials/book.hpp"
 
 namespace proveta {
@@ -15,7 +15,8 @@ namespace proveta {
 struct Target {
     TargetInput input;
     double weight = 1.0; ///< its own times its test's
-    SampledCurve curve;  ///< of a curve: SI, in the sense of the test, in order of x
+    TargetCurve file;    ///< of a curve: all that its file holds
+    SampledCurve curve;  ///< what of it is compared
 };
 
 /// Loads the curves. Throws InputError with every problem.

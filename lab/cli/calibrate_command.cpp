@@ -68,7 +68,7 @@ std::string write_results(const OutputFolder& out, const CalibrationPlan& plan, 
     const report::Record record = calibration_record(plan, targets, outcome, folders);
     report::write_file(out.file("trials.csv"), report::to_csv(trials_table(plan, targets, outcome, folders)));
     report::write_file(out.file("report.html"), report::to_html(record));
-    report::write_json(out.file("summary.json"), calibration_summary(plan, record, card));
+    report::write_json(out.file("summary.json"), calibration_summary(plan, targets, record, card));
     report::write_json(out.file("card.json"), card);
     std::string text = fmt::format("{}: {}\n", record.title, record.stopped_by);
     for (const auto& table : record.overview) {
@@ -97,6 +97,14 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     use_threads(a.threads);
     const CalibrationPlan plan = read_calibration(a.file);
     const auto targets = make_targets(plan);
+    for (const auto& t : targets) {
+        for (const auto& note : t.file.notes) {
+            spdlog::info("{}: {}", t.input.title(), note);
+        }
+        for (const auto& warning : t.file.warnings) {
+            spdlog::warn("{}: {}", t.input.title(), warning);
+        }
+    }
     OutputFolder folder(out);
     catch_interrupts();
     TrialBook book(out, a.mode(), static_cast<std::size_t>(omp_get_max_threads()), a.quiet, [&folder] { folder.look(); });

@@ -231,7 +231,7 @@ TEST_CASE("calibration: a test ends where its targets end") {
         return test.deck["loading"]["stop"];
     };
     const std::string peak = R"({"test": "t", "result": "strength", "value": 1})";
-    const std::string curve = R"({"test": "t", "curve": "curve.csv", "y": "total_stress"})";
+    const std::string curve = R"({"test": "t", "curve": "curve.csv", "y": "total_stress", "y_factor": 1e6})";
     CHECK(shortened(peak, R"({"test": "ucs", "material": {"card": "custom"}})")["post_peak_drop"] == 0.1);
     CHECK(shortened(peak,
                     R"({"test": "ucs", "material": {"card": "custom"}, "loading": {"stop": {"post_peak_drop": 0.4}}})")["post_peak_drop"] ==

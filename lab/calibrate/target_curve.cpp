@@ -1,0 +1,281 @@
+#include "lab/calibrate/target_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "core/input/column_heading.hpp"
+#include "core/input/text_table.hpp"
+#include "core/input/units.hpp"
+#include "lab/derived.hpp"
+#include "materials/measured.hpp"
+
+namespace proveta {
+
+namespace {
+
+using input::Unit;
+
+std::string plain(const std::string& quantity) {
+    std::string out = quantity;
+    std::replace(out.begin(), out.end(), '_', ' ');
+    return out;
+}
+
+bool is_stress(const std::string& quantity) { return quantity.ends_with("stress"); }
+
+// A column in SI. key: "x" or "y" of the target's keys; by: its factor, of which the size may also come from the file's unit.
+std::vector<double> column(const input::TextTable& table, const std::string& wanted, const std::string& quantity, double by, char key,
+                           TargetCurve& out) {
+    const std::size_t at = table.find(wanted);
+    const auto& c = table.columns()[at];
+    const Unit dimension = is_stress(quantity) ? Unit::pressure : Unit::none;
+    double factor = by;
+    if (!c.unit.empty()) {
+        const auto unit = input::unit_factor(c.unit, dimension);
+        if (!unit) {
+            throw std::runtime_error(
+                fmt::format("column \"{}\" has the unit {}, which is none of a {}", c.heading, c.unit, plain(quantity)));
+        }
+        const bool sign_alone = std::fabs(by) == 1.0;
+        if (!sign_alone && std::fabs(std::fabs(by) / *unit - 1.0) > 1e-6) {
+            throw std::runtime_error(fmt::format("column \"{}\" is in {}, a factor of {:.6g}, and {}_factor is {:.6g}: leave it out, or -1 "
+                                                 "for the sign",
+                                                 c.heading, c.unit, *unit, key, by));
+        }
+        factor = std::copysign(*unit, by);
+    }
+    const std::string unit = c.unit.empty() ? fmt::format("times {:.6g}", by) : "in " + c.unit;
+    out.notes.push_back(fmt::format("read '{}' as {}, {}", c.heading.empty() ? "column " + wanted : c.heading, plain(quantity), unit));
+    auto values = table.numbers(at);
+    for (double& v : values) {
+        v *= factor;
+    }
+    return values;
+}
+
+SampledCurve from_table(const TargetInput& t, TargetCurve& out) {
+    const input::TextTable table(t.curve);
+    SampledCurve all{column(table, t.x_column, t.x, t.x_factor, 'x', out), column(table, t.y_column, t.y, t.y_factor, 'y', out)};
+    std::vector<std::string> unused;
+    for (std::size_t c = 0; c < table.columns().size(); ++c) {
+        if (c != table.find(t.x_column) && c != table.find(t.y_column) && !table.columns()[c].heading.empty()) {
+            unused.push_back("'" + table.columns()[c].heading + "'");
+        }
+    }
+    if (!unused.empty()) {
+        out.notes.push_back(fmt::format("not used: {}", fmt::join(unused, ", ")));
+    }
+    return all;
+}
+
+// An experiment's file says itself what its columns are, and whether its stress is total or deviatoric.
+SampledCurve from_experiment(const TargetInput& t, TargetCurve& out) {
+    const MeasuredCurve m = load_measured_curve(t.curve);
+    if (m.empty()) {
+        throw std::runtime_error("an empty slot: its measured points have to be filled in first");
+    }
+    const auto values = [&](const std::string& name) {
+        std::vector<double> v;
+        for (std::size_t k = 0; k < m.axial_strain.size(); ++k) {
+            const double more = name == "total_stress" && !m.total       ? m.confinement
+                                : name == "deviatoric_stress" && m.total ? -m.confinement
+                                                                         : 0.0;
+            v.push_back(name == "axial_strain" || name == "gauge_strain" ? m.axial_strain[k]
+                        : name == "circumferential_strain"               ? m.lateral_strain[k]
+                        : name == "volumetric_strain"                    ? m.axial_strain[k] + 2.0 * m.lateral_strain[k]
+                                                                         : m.axial_stress[k] + more);
+        }
+        return v;
+    };
+    out.notes.push_back(
+        fmt::format("read as an experiment at {:.4g} MPa, {} stress", 1e-6 * m.confinement, m.total ? "total" : "deviatoric"));
+    return {values(t.x), values(t.y)};
+}
+
+// The value farthest from zero, with its sign.
+double largest(const std::vector<double>& v) {
+    return *std::max_element(v.begin(), v.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
+}
+
+// What a quantity of a solid or of ballast can be at its largest; beyond it, a unit is likely to be missing.
+struct Plausible {
+    double low, high;
+    std::vector<double> factors; // that make it so, the likeliest first
+};
+
+Plausible plausible(const std::string& quantity, const std::string& test) {
+    if (is_stress(quantity)) {
+        return {test == "granular-triaxial" ? 1e2 : 1e4, 1e10, {1e6, 1e3, 1e9, 1e-3, 1e-6}};
+    }
+    const double most = test == "granular-triaxial"                       ? 0.5
+                        : test == "direct-tension" || test == "brazilian" ? 0.02
+                        : test == "ucs"                                   ? 0.05
+                                                                          : 0.2;
+    return {1e-7, most, {1e-2, 1e-6, 1e-3}};
+}
+
+void refuse(const std::string& what, char key, double now, double times) {
+    throw std::runtime_error(fmt::format("{}: \"{}_factor\": {:.6g} would make it so", what, key, now * times));
+}
+
+// Sign and size of one quantity.
+void check_quantity(const std::vector<double>& v, const std::string& quantity, const std::string& test, char key, double now) {
+    const double most = largest(v);
+    const bool girth = quantity == "circumferential_strain";
+    const bool either = quantity == "volumetric_strain"; // smaller first, and larger where it dilates
+    const double wanted = girth && test != "direct-tension" ? -1.0 : 1.0;
+    if (!either && most * wanted < 0.0) {
+        refuse(fmt::format("{} goes to {:.4g} while in a {} test it is {} ({})", plain(quantity), most, test,
+                           wanted > 0.0 ? "positive" : "negative",
+                           girth ? "the specimen gets thicker, and strain is positive where it gets thinner"
+                                 : "strain and stress are positive in the sense of the test"),
+               key, now, -1.0);
+    }
+    const Plausible range = plausible(quantity, test);
+    const double size = std::fabs(most);
+    if (size > 0.0 && (size < range.low || size > range.high)) {
+        for (const double f : range.factors) {
+            if (size * f >= range.low && size * f <= range.high) {
+                refuse(fmt::format("{} goes to {:.4g}{}, while a {} test's lies between {:.4g} and {:.4g}", plain(quantity), most,
+                                   is_stress(quantity) ? " Pa" : "", test, range.low, range.high),
+                       key, now, f);
+            }
+        }
+        throw std::runtime_error(
+            fmt::format("{} goes to {:.4g}{}, which is none of a material", plain(quantity), most, is_stress(quantity) ? " Pa" : ""));
+    }
+}
+
+// Stress over strain: its slope is a modulus.
+void check_modulus(const SampledCurve& c, const TargetInput& t, const std::string& test) {
+    if (!is_stress(t.y) || (t.x != "axial_strain" && t.x != "gauge_strain")) {
+        return;
+    }
+    const auto slope = slope_between(c.x, c.y, 0.1, 1.0 / 3.0);
+    const double low = test == "granular-triaxial" ? 1e5 : 1e6;
+    const double high = 300e9;
+    if (!slope || (*slope >= low && *slope <= high)) {
+        return;
+    }
+    for (const double f : {1e-2, 1e-6, 1e-3}) {
+        if (*slope > 0.0 && *slope / f >= low && *slope / f <= high) {
+            refuse(fmt::format("a modulus of {:.4g} Pa between 10 % and 33 % of the peak, while materials have {:.4g} to {:.4g}", *slope,
+                               low, high),
+                   'x', t.x_factor, f);
+        }
+    }
+    throw std::runtime_error(
+        fmt::format("a modulus of {:.4g} Pa between 10 % and 33 % of the peak, while materials have {:.4g} to {:.4g}", *slope, low, high));
+}
+
+void take_off_toe(const TargetInput& t, TargetCurve& out) {
+    if (t.toe != "removed") {
+        return;
+    }
+    const auto line = line_between(out.measured.x, out.measured.y, 0.1, 1.0 / 3.0);
+    if (!line || !(line->slope > 0.0)) {
+        throw std::runtime_error("no straight part between 10 % and 33 % of the peak, from which the toe could be removed");
+    }
+    out.toe = -line->intercept / line->slope;
+    for (double& x : out.measured.x) {
+        x -= out.toe;
+    }
+    out.notes.push_back(fmt::format("toe of {:.4g} strain taken off", out.toe));
+}
+
+// Points by which x goes on beyond all before: what a test led by its platens can be compared with.
+void take_compared(const TargetInput& t, double last, TargetCurve& out) {
+    const auto& m = out.measured;
+    double reached = -std::numeric_limits<double>::infinity();
+    double range = 0.0;
+    double back = 0.0; // farthest that x went back
+    std::size_t left_out = 0;
+    std::size_t beyond = 0;
+    for (std::size_t k = 0; k < m.x.size(); ++k) {
+        const bool counts = (!t.from.word.empty() || m.x[k] >= t.from.number) && (!t.to.word.empty() || m.x[k] <= t.to.number);
+        if (!counts) {
+            continue;
+        }
+        if (m.x[k] <= reached) {
+            back = std::max(back, reached - m.x[k]);
+            ++left_out;
+            continue;
+        }
+        reached = m.x[k];
+        if (m.x[k] > last) {
+            ++beyond;
+            continue;
+        }
+        out.compared.x.push_back(m.x[k]);
+        out.compared.y.push_back(m.y[k]);
+    }
+    const std::size_t kept = out.compared.x.size();
+    if (kept < 3) {
+        throw std::runtime_error(fmt::format("{} points in the range that counts, at least 3 are wanted{}", kept,
+                                             beyond > 0 ? fmt::format("; the test ends at {:.4g}", last) : ""));
+    }
+    range = out.compared.x.back() - out.compared.x.front();
+    if (left_out > kept + beyond) {
+        throw std::runtime_error(fmt::format("{} goes back in {} of {} rows: they are not in the order of measurement; sort them by {}",
+                                             plain(t.x), left_out, m.x.size(), plain(t.x)));
+    }
+    if (left_out > 0 && back > 1e-3 * range) {
+        out.warnings.push_back(fmt::format("{} rows in which {} goes back (by {:.3g} at most: unloading, or snap-back) are not compared: "
+                                           "the test goes on in it",
+                                           left_out, plain(t.x), back));
+    }
+    if (beyond > 0) {
+        out.warnings.push_back(fmt::format("the test ends at {} = {:.4g}, the curve at {:.4g}: {} of its points are not compared; raise "
+                                           "loading.stop.axial_strain to compare all",
+                                           t.x, last, reached, beyond));
+    }
+}
+
+} // namespace
+
+TargetCurve load_target_curve(const TargetInput& t, const std::string& test, double last) {
+    TargetCurve out;
+    const bool experiment = is_measured_curve(t.curve);
+    const SampledCurve all = experiment ? from_experiment(t, out) : from_table(t, out);
+    std::size_t missing = 0;
+    for (std::size_t k = 0; k < all.x.size(); ++k) {
+        if (std::isfinite(all.x[k]) && std::isfinite(all.y[k])) {
+            out.measured.x.push_back(all.x[k] - t.x_offset);
+            out.measured.y.push_back(all.y[k]);
+        } else {
+            ++missing;
+        }
+    }
+    if (missing > 0) {
+        out.warnings.push_back(fmt::format("{} of {} rows lack a value and were left out", missing, all.x.size()));
+    }
+    if (out.measured.x.size() < 3) {
+        throw std::runtime_error(fmt::format("{} rows with both values, at least 3 are wanted", out.measured.x.size()));
+    }
+    std::size_t backwards = 0;
+    for (std::size_t k = 1; k < out.measured.x.size(); ++k) {
+        backwards += out.measured.x[k] < out.measured.x[k - 1] ? 1 : 0;
+    }
+    if (2 * backwards > out.measured.x.size() && out.measured.x.back() < out.measured.x.front()) {
+        std::reverse(out.measured.x.begin(), out.measured.x.end());
+        std::reverse(out.measured.y.begin(), out.measured.y.end());
+        out.notes.push_back("rows from the last to the first");
+    }
+    if (std::all_of(out.measured.y.begin(), out.measured.y.end(), [](double v) { return v == 0.0; })) {
+        throw std::runtime_error("all values are 0");
+    }
+    check_quantity(out.measured.x, t.x, test, 'x', t.x_factor);
+    check_quantity(out.measured.y, t.y, test, 'y', t.y_factor);
+    check_modulus(out.measured, t, test);
+    take_off_toe(t, out);
+    take_compared(t, last, out);
+    return out;
+}
+
+} // namespace proveta
