@@ -28,7 +28,8 @@ class Progress {
     std::chrono::steady_clock::time_point next_;
 };
 
-/// Ctrl-C and SIGTERM ask the calculation to end at its next sample; a second one ends the program at once.
+/// Ctrl-C and SIGTERM ask the calculation to end where its state is whole, however many of them come: terminals, schedulers and parents
+/// send several.
 void catch_interrupts();
 bool interrupted();
 /// Number of the signal that asked for the end; SIGINT before any has.

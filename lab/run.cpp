@@ -237,8 +237,12 @@ RunStatus make_and_test(const Deck& deck, const RunOptions& options) {
             spdlog::info("{}", line);
         }
     };
-    Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source,
-                                        [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
+    Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source, [&](double done) {
+        if (options.passage == Passage::begin && interrupted()) {
+            throw StoppedBefore();
+        }
+        progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done));
+    });
     log(fmt::format("specimen of {} {} ready after {:.1f} s", specimen.size(), specimen.stones.empty() ? "spheres" : "stones",
                     since(clock)));
     if (options.passage == Passage::begin && interrupted()) {

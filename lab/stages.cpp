@@ -44,34 +44,30 @@ bool parted(const Model& model) {
 
 } // namespace
 
-std::optional<std::string> stopped_by_drop(double drop, const report::Table& curve, double sense) {
-    const Loading l = loading_of(curve, sense);
-    if (l.deviator.empty() || drop >= 1.0) {
-        return std::nullopt;
-    }
-    const std::size_t peak = peak_index(l.deviator);
-    const bool stands_out = l.deviator.size() - peak > 5 && curve.rows.back()[curve.column("broken_bonds")] > 0.0;
-    if (stands_out && l.deviator.back() < (1.0 - drop) * l.deviator[peak]) {
+std::optional<std::string> stopped_by_drop(double drop, const BenchView& bench) {
+    const LoadingTrack& t = bench.track;
+    const bool stands_out = t.strain - t.strain_at_peak > 0.01 * t.strain_at_peak && bench.model.broken() > 0;
+    if (drop < 1.0 && stands_out && t.deviator < (1.0 - drop) * t.peak) {
         return fmt::format("stress fell by {:.0f} % from its peak", 100.0 * drop);
     }
     return std::nullopt;
 }
 
 std::optional<std::string> stopped_by(const StopRules& rules, const BenchView& bench) {
-    if (bench.curve.rows.empty()) {
+    if (bench.track.looks == 0.0) {
         return std::nullopt;
     }
-    const Loading loading = loading_of(bench.curve, bench.press.sense);
-    if (!loading.strain.empty() && loading.strain.back() >= rules.axial_strain * (1.0 - 1e-9)) {
+    if (bench.track.strain >= rules.axial_strain * (1.0 - 1e-9)) {
         return fmt::format("axial strain of {:.4g} reached", rules.axial_strain);
     }
     if (rules.time.word.empty() && bench.model.time() >= rules.time.number) {
         return fmt::format("time of {:.4g} s reached", rules.time.number);
     }
-    if (rules.parted == "stop" && bench.model.broken() > 0 && parted(bench.model)) {
+    constexpr double looks_a_parting = 32.0; // it takes a walk through all bonds
+    if (rules.parted == "stop" && std::fmod(bench.track.looks, looks_a_parting) == 0.0 && bench.model.broken() > 0 && parted(bench.model)) {
         return "the specimen has parted";
     }
-    return stopped_by_drop(rules.post_peak_drop, bench.curve, bench.press.sense);
+    return stopped_by_drop(rules.post_peak_drop, bench);
 }
 
 void declare_friction(input::Visitor& v, input::NumberOrWord& friction) {

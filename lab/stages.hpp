@@ -20,12 +20,11 @@ struct StopRules {
 
 void declare(input::Visitor& v, StopRules& rules);
 
-/// Why the test is over, from the samples of its loading stages. The drop counts only once the peak stands out: at least five samples ago
-/// and after bonds have broken.
+/// Why the test is over. The drop counts only once the peak stands out: by a hundredth of the strain, and after bonds have broken.
 std::optional<std::string> stopped_by(const StopRules& rules, const BenchView& bench);
 
 /// Why the stress has fallen far enough to stop; the drop alone.
-std::optional<std::string> stopped_by_drop(double drop, const report::Table& curve, double sense);
+std::optional<std::string> stopped_by_drop(double drop, const BenchView& bench);
 
 /// Friction on a platen's face: a number, "lubricated" (0) or "glued" (no lateral slip).
 void declare_friction(input::Visitor& v, input::NumberOrWord& friction);

@@ -80,7 +80,7 @@ class Run {
   public:
     Run(const Deck& deck, Bench& bench, const TestHooks& hooks, const TestVariant& variant)
         : deck_(deck), bench_(bench), hooks_(hooks), variant_(variant), model_(*bench.model),
-          instruments_(bench), view_{model_, bench.specimen.shape, bench.press, instruments_, bench.wave_speed, data_.curve, bench.grain} {
+          instruments_(bench), view_{model_, bench.specimen.shape, bench.press, instruments_, bench.wave_speed, track_, bench.grain} {
         data_.curve = instruments_.empty_curve();
         data_.energy = instruments_.empty_energy();
     }
@@ -135,6 +135,9 @@ class Run {
     void pass(const Stage& stage, bool midst) {
         if (!midst) {
             stage.control->begin(view_, drive_);
+            if (stage.kind == Stage::Kind::loading && track_.looks == 0.0) {
+                track_.begun = view_.strain();
+            }
             data_.stages.push_back(stage.name);
             if (stage_ > 0) {
                 keep(true);
@@ -152,9 +155,13 @@ class Run {
             const double done = stage.done(view_);
             const double whole = before_ + stage.share * std::clamp(done, 0.0, 1.0);
             over = done >= 1.0;
-            const bool due = over || whole * static_cast<double>(deck_.output.samples) >= static_cast<double>(samples_);
-            step(stage, due);
-            if (due) {
+            const bool sampled = over || whole * static_cast<double>(deck_.output.samples) >= static_cast<double>(samples_);
+            const bool watched = stage.kind == Stage::Kind::loading && (over || (model_.steps() + 1) % steps_a_watch == 0);
+            step(stage, sampled || watched);
+            if (watched) {
+                watch();
+            }
+            if (sampled || !data_.stopped_by.empty()) {
                 sample(stage, whole);
                 looked_ = true;
             } else if (model_.steps() % steps_a_look == 0) {
@@ -188,6 +195,14 @@ class Run {
         visit_rows("energy_", data_.energy, visit);
         visit_events("", data_.events, visit);
         instruments_.visit_state("instruments_", visit);
+        for (const auto& [name, value] : {std::pair{"strain", &track_.strain},
+                                          {"deviator", &track_.deviator},
+                                          {"peak", &track_.peak},
+                                          {"strain_at_peak", &track_.strain_at_peak},
+                                          {"begun", &track_.begun},
+                                          {"looks", &track_.looks}}) {
+            visit(std::string("track_") + name, *value);
+        }
         watch_.visit_state(visit);
         for (std::size_t k = 0; k < stages_.size(); ++k) {
             stages_[k].control->visit_state("control_" + std::to_string(k) + "_", visit);
@@ -231,12 +246,21 @@ class Run {
             fields_ = static_cast<std::int64_t>(std::floor(whole * static_cast<double>(deck_.output.fields))) + 1;
         }
         hooks_.progress(data_, whole);
-        if (stage.kind != Stage::Kind::loading) {
-            return;
+    }
+
+    // Whether the test is over; asked at steps of their own, which no output moves.
+    void watch() {
+        const double strain = view_.strain();
+        track_.looks += 1.0;
+        track_.strain = strain - track_.begun;
+        track_.deviator = view_.stress() - drive_.pressure;
+        if (track_.deviator > track_.peak) {
+            track_.peak = track_.deviator;
+            track_.strain_at_peak = track_.strain;
         }
         if (const auto why = deck_.protocol->stop(view_)) {
             data_.stopped_by = *why;
-        } else if (const auto fell = stopped_by_drop(variant_.until_drop, data_.curve, bench_.press.sense)) {
+        } else if (const auto fell = stopped_by_drop(variant_.until_drop, view_)) {
             data_.stopped_by = *fell;
         }
     }
@@ -248,11 +272,13 @@ class Run {
     Model& model_;
     Instruments instruments_;
     TestData data_;
+    LoadingTrack track_;
     BenchView view_;
     PeakWatch watch_;
     Drive drive_;
     std::vector<double> speeds_;
     static constexpr std::int64_t steps_a_look = 256; // between looks at the clock and at the user's wishes
+    static constexpr std::int64_t steps_a_watch = 32; // between looks at whether the test is over
     std::vector<Stage> stages_;
     std::int64_t stage_ = 0; // that is passed through
     std::int64_t over_ = 0;  // 1: the test is over and everything written

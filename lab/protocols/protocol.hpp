@@ -37,15 +37,25 @@ struct ProtocolInfo {
     std::vector<Standard> standards;
 };
 
+/// How far the loading has come, looked at every so many steps, whatever the samples: what ends a test must not depend on its output.
+struct LoadingTrack {
+    double strain = 0.0;   ///< since the loading began, in the sense of the test
+    double deviator = 0.0; ///< in the sense of the test, Pa
+    double peak = 0.0;     ///< largest deviator so far
+    double strain_at_peak = 0.0;
+    double begun = 0.0; ///< strain at which the loading began
+    double looks = 0.0; ///< number of looks so far
+};
+
 /// What a protocol may know of the run so far.
 struct BenchView {
     const Model& model;
     const Shape& shape;
     const Press& press;
     const Instruments& instruments;
-    double wave_speed;          ///< of a bar of the material, m/s; of a loose specimen an estimate at the test's pressure
-    const report::Table& curve; ///< samples so far
-    double grain = 0.0;         ///< as in `InPress`, m
+    double wave_speed; ///< of a bar of the material, m/s; of a loose specimen an estimate at the test's pressure
+    const LoadingTrack& track;
+    double grain = 0.0; ///< as in `InPress`, m
 
     [[nodiscard]] double strain() const;       ///< in the sense of the test: closing, or parting, of the platens over their distance
     [[nodiscard]] double stress() const;       ///< in the sense of the test: mean of both platens' force over the area, Pa

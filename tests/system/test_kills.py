@@ -220,6 +220,24 @@ class Signals(Reliability):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertSame("part", "whole")
 
+    def test_any_number_of_signals_loses_nothing(self):
+        """Terminals, schedulers and parents send several; the first counts, and the rest must not end what it asked for."""
+        deck = self.deck({"test": "ucs", "specimen": BODY, "output": {"checkpoint_every": 0}})
+        self.assertEqual(self.run_program("run", deck, "--out", "whole", "--quiet").returncode, 0)
+        for pause in (0.0, 0.01):
+            for numbers, code in (((signal.SIGTERM, signal.SIGTERM), 143), ((signal.SIGINT,) * 4, 130)):
+                shutil.rmtree(self.folder / "part", ignore_errors=True)
+                process = self.start("run", deck, "--out", "part", until="part/fields")
+                for number in numbers:
+                    process.send_signal(number)
+                    time.sleep(pause)
+                _, log = process.communicate(timeout=60)
+                self.assertEqual(process.returncode, code, log)
+                self.assertEqual(self.status("part"), "interrupted")
+                self.assertWhole("part")
+                self.assertEqual(self.run_program("resume", "part", "--quiet").returncode, 0)
+                self.assertSame("part", "whole")
+
 
 if __name__ == "__main__":
     main()

@@ -38,6 +38,18 @@ class Running(Case):
         self.assertNotIn("https://", page)
         self.assertTrue(list((out / "fields").glob("spheres_*.vtp")))
 
+    def test_output_never_touches_the_calculation(self):
+        """Rows, fields, pictures and checkpoints are observers: the bonds fail the same, to the bit."""
+        found = set()
+        for output in ({"samples": 61, "fields": 0}, {"samples": 100, "fields": 3, "checkpoint_every": 0.05}, {"samples": 97, "pictures": 100}):
+            with self.subTest(output):
+                deck = self.deck(output=output, loading={"rate": "auto"})
+                done = self.run_program("run", deck, "--out", "observed", "--quiet")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                found.add((self.folder / "observed" / "events.csv").read_bytes())
+                self.assertGreater(len(self.rows(self.folder / "observed" / "events.csv")), 20)
+        self.assertEqual(len(found), 1)
+
     def test_bench_prints_a_line_a_measurement_and_writes_the_same_as_json(self):
         done = self.run_program("bench", "--sizes", "500", "--threads", "1,2", "--repeats", "1", "--seconds", "0.02", "--json", "bench.json")
         self.assertEqual(done.returncode, 0, done.stderr)
