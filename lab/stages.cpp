@@ -46,7 +46,7 @@ bool parted(const Model& model) {
 
 std::optional<std::string> stopped_by_drop(double drop, const BenchView& bench) {
     const LoadingTrack& t = bench.track;
-    const bool stands_out = t.strain - t.strain_at_peak > 0.01 * t.strain_at_peak && bench.model.broken() > 0;
+    const bool stands_out = t.looks - t.look_at_peak > std::max(8.0, 0.01 * t.looks) && bench.model.broken() > 0;
     if (drop < 1.0 && stands_out && t.deviator < (1.0 - drop) * t.peak) {
         return fmt::format("stress fell by {:.0f} % from its peak", 100.0 * drop);
     }

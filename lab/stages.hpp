@@ -20,7 +20,8 @@ struct StopRules {
 
 void declare(input::Visitor& v, StopRules& rules);
 
-/// Why the test is over. The drop counts only once the peak stands out: by a hundredth of the strain, and after bonds have broken.
+/// Why the test is over. The drop counts only once the peak stands out: a hundredth of the loading ago, and after bonds have
+/// broken.
 std::optional<std::string> stopped_by(const StopRules& rules, const BenchView& bench);
 
 /// Why the stress has fallen far enough to stop; the drop alone.

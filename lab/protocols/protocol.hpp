@@ -40,9 +40,9 @@ struct ProtocolInfo {
 /// How far the loading has come, looked at every so many steps, whatever the samples: what ends a test must not depend on its output.
 struct LoadingTrack {
     double strain = 0.0;   ///< since the loading began, in the sense of the test
-    double deviator = 0.0; ///< in the sense of the test, Pa
+    double deviator = 0.0; ///< in the sense of the test, smoothed, Pa
     double peak = 0.0;     ///< largest deviator so far
-    double strain_at_peak = 0.0;
+    double look_at_peak = 0.0;
     double begun = 0.0; ///< strain at which the loading began
     double looks = 0.0; ///< number of looks so far
 };

@@ -191,7 +191,7 @@ TEST_CASE("control by the girth: past the peak the platens give way, and the cur
     const auto girth = led.data.curve.values("circumferential_strain");
     CHECK(*std::min_element(rate.begin(), rate.end()) < 0.0); // the machine went back, as no steady closing does
     const std::size_t farthest = peak_index(strain);
-    CHECK(strain.back() < 0.97 * strain[farthest]); // 0.957 where another compiler's rounding makes another specimen
+    CHECK(strain.back() < 0.99 * strain[farthest]); // 1 where it does not turn back; 0.957 to 0.979 with what changes a specimen's rounding
     CHECK(stress.back() < 0.8 * stress[farthest]);
     CHECK(girth.back() < 1.5 * girth[farthest]); // negative: it went on growing
     const Ran steady = run("ucs", "{}");
