@@ -61,7 +61,7 @@ class Docs(Case):
         for name in ("mine", "mydeck"):
             self.deck({"test": "ucs"}, name + ".json")
         (self.folder / "mesh.csv").write_text("".join(f"{0.02 * i} {0.02 * j} {0.02 * k} 0.01\n"
-                                                      for i in range(7) for j in range(14) for k in range(7)))
+                                                      for i in range(-3, 4) for j in range(14) for k in range(-3, 4) if i * i + k * k < 12))
         self.assertEqual(self.run_program("specimen", "make", "s.h5", "--set", "spheres=500").returncode, 0)
         for out in ("results/mine", "results/other"):
             done = self.run_program("run", "ucs.json", "--out", out, *SMALL)
