@@ -1,6 +1,7 @@
 """The calibration from outside: what it leaves, going on after a kill, carrying trials out elsewhere, bad input. Started as: test_calibrate.py PROVETA"""
 import json
 import os
+import shutil
 import random
 import signal
 import subprocess
@@ -154,11 +155,56 @@ class Calibrate(Case):
         (other / "notes.txt").write_text("mine")
         done = self.run_program("calibrate", self.write(calibration()), "--out", "other")
         self.assertEqual((done.returncode, os.listdir(other)), (2, ["notes.txt"]))
+        # A result that the test has not, a value that the result cannot have.
+        for target, words in (({"result": "peak_strength", "value": "30 MPa"}, "/targets/0/result"), ({"result": "poisson_ratio", "value": "0.2 MPa"}, "/targets/0/value"),
+                              ({"result": "strength", "value": "-30 MPa"}, "a positive strength")):
+            done = self.run_program("calibrate", self.write(calibration(targets=[{"test": "ucs", **target}])), "--out", "r")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(words, done.stderr)
+            self.assertFalse((self.folder / "r").exists())
         # Targets that no trial can give: the reason of the last one is told.
-        impossible = calibration(targets=[{"test": "ucs", "result": "no_such_result", "value": 1}], search={"spheres": 0.5, "trials": 2, "batch": 2})
+        short = {"name": "ucs", "deck": {"test": "ucs", "loading": {"rate": "0.3 m/s", "stop": {"axial_strain": 0.0001}}}}
+        impossible = calibration(tests=[short], targets=[{"test": "ucs", "result": "strength", "value": "30 MPa"}], search={"spheres": 0.5, "trials": 2, "batch": 2})
         done = self.run_program("calibrate", self.write(impossible), "--out", "r")
         self.assertEqual(done.returncode, 3)
         self.assertIn("none of 2 trials gave every target", done.stderr)
+
+    def test_a_measured_curve_is_read_as_it_was_written_or_refused(self):
+        """Dialects give one score; signs, scales and order are said."""
+        points = [(2e-5 * k, min(28e3 * 2e-5 * k, 30.0)) for k in range(60)]
+
+        def rows(separator=",", decimal=".", x=1.0, y=1.0, heading="strain,stress"):
+            return "\n".join([heading.replace(",", separator)] + [f"{x * a:.8f}{separator}{y * b:.8f}".replace(".", decimal) for a, b in points]) + "\n"
+
+        def score(text, **keys):
+            (self.folder / "m.csv").write_text(text)
+            target = {"test": "ucs", "curve": "m.csv", "y": "total_stress", "x_column": "strain", "y_column": "stress", "y_factor": 1e6, **keys}
+            short = {"name": "ucs", "deck": {"test": "ucs", "loading": {"rate": "0.3 m/s"}}}
+            plan = calibration(tests=[short], targets=[target], search={"spheres": 0.5, "trials": 1, "batch": 1}, finish={"rounds": 0}, confidence={"seeds": 0})
+            shutil.rmtree(self.folder / "m", ignore_errors=True)
+            done = self.run_program("calibrate", self.write(plan), "--out", "m")
+            if done.returncode != 0:
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertFalse((self.folder / "m").exists())
+                return done.stderr
+            summary = json.loads((self.folder / "m" / "summary.json").read_text())
+            return round(summary["results"]["score"]["value"], 6), summary["curves"][0]["warnings"], done.stderr
+
+        plain = score(rows())
+        self.assertEqual(plain[1], [])
+        for text, keys in ((rows(";", ","), {}), ("Specimen;A1\nDate;2020-01-01\n\n" + rows(";", ","), {}), (rows(heading="strain,stress\n-,MPa"), {}),
+                           (rows("\t"), {}), ("\ufeff" + rows(), {}), (rows(x=100.0, heading="strain [%],stress [MPa]"), {"y_factor": 1}),
+                           (rows(x=-1.0, y=-1.0), {"x_factor": -1, "y_factor": -1e6})):
+            with self.subTest(text[:40]):
+                self.assertEqual(score(text, **keys)[0], plain[0])
+        self.assertIn("read 'strain [%]' as axial strain, in %", score(rows(x=100.0, heading="strain [%],stress"))[2])
+        self.assertIn('"x_factor": -1', score(rows(x=-1.0, y=-1.0)))
+        self.assertIn('"y_factor": 1e+06', score(rows(), y_factor=1))
+        self.assertIn('"x_factor": 0.01', score(rows(x=100.0)))
+        self.assertIn("columns 2 and 3", score("strain,stress,stress\n0,0,0\n1e-4,2.8,0\n2e-4,5.6,0\n"))
+        back = score(rows() + "0.0009,20\n0.0008,10\n")
+        self.assertEqual(back[0], plain[0])
+        self.assertIn("2 rows in which axial strain goes back", back[1][0])
 
 
 if __name__ == "__main__":

@@ -237,6 +237,37 @@ class Specimens(Case):
         disc = self.run_program("specimen", "make", "d.h5", "--set", "shape=disc", "--set", "height=90 mm", "--set", "spheres=2000")
         self.assertIn("cylinder 150 x 90 mm", disc.stdout)
 
+    def test_sphere_tables_are_read_as_they_were_written_or_refused(self):
+        self.assertEqual(self.run_program("specimen", "make", "s.h5", "--set", "spheres=200", "--set", "diameter=50 mm", "--set", "height=100 mm").returncode, 0)
+        self.assertEqual(self.run_program("specimen", "export", "s.h5", "s.csv").returncode, 0)
+        spheres = [line.split(",")[:4] for line in (self.folder / "s.csv").read_text().splitlines()[1:]]
+
+        def imported(rows, heading="x,y,z,r", *options, separator=",", decimal="."):
+            text = "".join(separator.join(cells).replace(".", decimal) + "\n" for cells in ([heading.split(",")] if heading else []) + rows)
+            (self.folder / "t.csv").write_text(text)
+            done = self.run_program("specimen", "import", "t.csv", "t.h5", *options)
+            return done.stdout[done.stdout.index("shape"):done.stdout.index("relative")] if done.returncode == 0 else (done.returncode, done.stderr)
+
+        scaled = lambda by: [[repr(by * float(c)) for c in row] for row in spheres]
+        plain = imported(spheres)
+        self.assertIn("200", plain)
+        self.assertEqual(imported([r[3:] + r[:3] for r in spheres], "r,x,y,z"), plain)
+        self.assertEqual(imported([r[:3] + [repr(2.0 * float(r[3]))] for r in spheres], "x,y,z,diameter"), plain)
+        self.assertEqual(imported(spheres, separator=";", decimal=","), plain)
+        self.assertEqual(imported(spheres, None), plain)
+        self.assertEqual(imported(scaled(1e3), "x_mm,y_mm,z_mm,r_mm"), plain)
+        self.assertEqual(imported(scaled(1e3), "x,y,z,r", "--scale", "0.001"), plain)
+        self.assertEqual(imported([r + ["7"] for r in spheres], "x,y,z,r,density"), plain)
+        self.assertEqual(imported([r[3:] + r[:3] for r in spheres], None, "--columns", "r,x,y,z"), plain)
+        for rows, heading, words in ((spheres + spheres[:1], "x,y,z,r", "line 2 and line 202"), (spheres + [["9", "0", "0", "0.002"]], "x,y,z,r", "line 202"),
+                                     ([r[3:] + r[:3] for r in spheres], None, "--columns"), (spheres, "x,y,z,q", "radius or the diameter"),
+                                     ([r[:3] + [repr(2.0 * float(r[3]))] for r in spheres], "x,y,z,r", "diameters"), ([[r[0], r[2], r[1], r[3]] for r in spheres], "x,y,z,r", "--axis y"),
+                                     (spheres[:9] + [spheres[9][:3]], "x,y,z,r", "line 11: 3 cells")):
+            with self.subTest(words):
+                found = imported(rows, heading)
+                self.assertEqual(found[0], 2, found)
+                self.assertIn(words, found[1])
+
     def test_files_that_are_not_specimens(self):
         (self.folder / "x.h5").write_text("no")
         (self.folder / "x.csv").write_text("1,2,3\n")
@@ -244,7 +275,7 @@ class Specimens(Case):
         self.assertEqual(self.run_program("specimen", "info", "none.h5").returncode, 2)
         bad = self.run_program("specimen", "import", "x.csv", "y.h5")
         self.assertEqual(bad.returncode, 2)
-        self.assertIn("x.csv:1", bad.stderr)
+        self.assertIn("x.csv: 3 columns without headings", bad.stderr)
         self.assertFalse((self.folder / "y.h5").exists())
 
 
