@@ -135,7 +135,7 @@ TextColumn column_of_heading(const std::string& heading) {
         // From the left, so that "force / kN/m" has the longest unit that is one.
         for (auto at = heading.find(mark); at != std::string::npos; at = heading.find(mark, at + 1)) {
             const std::string unit = trimmed(heading.substr(at + mark.size()));
-            // A single letter after a blank or a low line is as likely an index ("strain_m", "x s") as a unit, but for lengths of x_m.
+            // What counts columns ("strain 1") is no unit without brackets.
             if (unit != "-" && unit != "1" && split_at(at, at + mark.size(), heading.size())) {
                 return out;
             }
