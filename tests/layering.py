@@ -22,7 +22,8 @@ LIBRARIES = {
     r"vtk": ("reports", "specimens", "tests"),
     r"voro\+\+/": ("specimens",),
     r"fmt/": ("core/input", "materials", "specimens", "reports", "lab", "tests"),
-    r"spdlog/|CLI/|dlib/|boost/|muParser": ("lab",),
+    r"fast_float/|boost/locale/encoding": ("core/input",),
+    r"spdlog/|CLI/|dlib/|boost/(?!locale/encoding)|muParser": ("lab",),
 }
 # No text of a user ever reaches a shell.
 SHELL = re.compile(r"\b(?:std::system|popen|system)\s*\(")

@@ -38,8 +38,7 @@ TEST_CASE("text table: separators and decimals are found out") {
                                 "a\tb\n0,001\t2,5\n0,002\t-3e1\n",
                                 "a b\n0.001 2.5\n0.002   -3e1\n",
                                 "a b\n0,001 2,5\n0,002 -3e1\n",
-                                "\xEF\xBB\xBF"
-                                "a,b\r\n0.001,2.5\r\n0.002,-3e1\r\n",
+                                "\357\273\277a,b\r\n0.001,2.5\r\n0.002,-3e1\r\n",
                                 "\"a\",\"b\"\n\"0.001\",\"2.5\"\n\"0.002\",\"-3e1\"\n",
                                 "a;b\n0.001; +2.5\n0.002;-30\n",
                                 "# text\n\na,b\n0.001,2.5\n# more\n0.002,-30\n",
