@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "core/files/whole_file.hpp"
 #include "specimens/sphere_file.hpp"
@@ -91,13 +92,17 @@ Extent extent_of(const std::vector<ReadSphere>& spheres) {
 
 // Two spheres in one place are one that was written twice.
 void refuse_coincident(const std::string& file, const std::vector<ReadSphere>& spheres) {
-    std::map<std::array<double, 3>, std::size_t> at;
+    std::vector<std::size_t> order(spheres.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](std::size_t k) {
+        const Vec3& c = spheres[k].centre;
+        return std::tuple(c.x(), c.y(), c.z());
+    };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
     std::vector<std::string> pairs;
-    for (std::size_t k = 0; k < spheres.size(); ++k) {
-        const auto& c = spheres[k].centre;
-        const auto [other, is_new] = at.try_emplace({c.x(), c.y(), c.z()}, k);
-        if (!is_new) {
-            pairs.push_back(spheres[other->second].where + " and " + spheres[k].where);
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        if (key(order[k]) == key(order[k - 1])) {
+            pairs.push_back(spheres[order[k - 1]].where + " and " + spheres[order[k]].where);
         }
     }
     if (!pairs.empty()) {

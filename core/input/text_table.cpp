@@ -4,11 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <stdexcept>
 
 #include "core/input/column_heading.hpp"
@@ -53,6 +50,43 @@ void rejoin(std::vector<std::string_view>& cells, std::size_t width) {
     }
 }
 
+bool has_number(const std::vector<std::string_view>& cells, const TableDialect& dialect) {
+    double value = 0.0;
+    return std::any_of(cells.begin(), cells.end(), [&](auto cell) { return dialect.kind(cell, value) == Cell::number; });
+}
+
+// How many columns most lines with a number have, among equals the first; 0 where there is none.
+std::size_t width_of(const std::vector<std::vector<std::string_view>>& rows, const TableDialect& dialect) {
+    std::map<std::size_t, std::size_t> lines_with;
+    for (const auto& cells : rows) {
+        lines_with[cells.size()] += has_number(cells, dialect) ? 1 : 0;
+    }
+    std::size_t width = 0;
+    for (const auto& cells : rows) {
+        width = lines_with[cells.size()] > (width > 0 ? lines_with[width] : 0) ? cells.size() : width;
+    }
+    return width;
+}
+
+// Which columns hold numbers, or nothing, in at least half of the lines of that width.
+std::vector<bool> columns_of_numbers(const std::vector<std::vector<std::string_view>>& rows, std::size_t width,
+                                     const TableDialect& dialect) {
+    std::vector<std::size_t> numbers(width, 0);
+    std::size_t alike = 0;
+    double value = 0.0;
+    for (const auto& cells : rows) {
+        alike += cells.size() == width ? 1 : 0;
+        for (std::size_t c = 0; c < width && cells.size() == width; ++c) {
+            numbers[c] += dialect.kind(cells[c], value) != Cell::text ? 1 : 0;
+        }
+    }
+    std::vector<bool> out;
+    for (const auto n : numbers) {
+        out.push_back(2 * n >= alike);
+    }
+    return out;
+}
+
 } // namespace
 
 void TextTable::fail(std::size_t line, const std::string& what) const {
@@ -80,37 +114,20 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
     }
     dialect_ = dialect_of(sample);
 
-    // How many columns, and which are of numbers: as most of the first lines have it.
     std::vector<std::vector<std::string_view>> rows(first.size());
-    std::map<std::size_t, std::size_t> lines_with;
-    double value = 0.0;
     for (std::size_t k = 0; k < first.size(); ++k) {
         split(first[k], rows[k]);
-        const bool any = std::any_of(rows[k].begin(), rows[k].end(), [&](auto cell) { return dialect_.kind(cell, value) == Cell::number; });
-        lines_with[rows[k].size()] += any ? 1 : 0;
     }
-    std::size_t width = 0;
-    for (const auto& cells : rows) { // among equals that of the first line
-        width = lines_with[cells.size()] > (width > 0 ? lines_with[width] : 0) ? cells.size() : width;
-    }
+    const std::size_t width = width_of(rows, dialect_);
     if (width == 0) {
         throw std::runtime_error(file_ + ": no rows of numbers");
     }
-    std::vector<std::size_t> numbers(width, 0);
-    std::size_t alike = 0;
-    for (const auto& cells : rows) {
-        alike += cells.size() == width ? 1 : 0;
-        for (std::size_t c = 0; c < width && cells.size() == width; ++c) {
-            numbers[c] += dialect_.kind(cells[c], value) != Cell::text ? 1 : 0;
-        }
-    }
-    for (const auto n : numbers) {
-        numeric_.push_back(2 * n >= alike);
-    }
+    numeric_ = columns_of_numbers(rows, width, dialect_);
 
     // Rows of numbers begin where a line has them in all columns that should; what stands above names the columns.
     const auto is_row = [&](const std::vector<std::string_view>& cells) {
         bool any = false;
+        double value = 0.0;
         for (std::size_t c = 0; c < width && cells.size() == width; ++c) {
             const Cell found = dialect_.kind(cells[c], value);
             if (numeric_[c] && found == Cell::text) {
@@ -131,8 +148,7 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
     }
     // A line without any number names; one with a number in it, under such a line, is a row that is wrong.
     const auto is_heading = [&](const std::vector<std::string_view>& cells) {
-        return cells.size() == width &&
-               std::none_of(cells.begin(), cells.end(), [&](auto c) { return dialect_.kind(c, value) == Cell::number; });
+        return cells.size() == width && !has_number(cells, dialect_);
     };
     std::size_t names_end = begin;
     while (names_end > 0 && !is_heading(rows[names_end - 1])) {

@@ -201,9 +201,10 @@ TextTable statement_table(const std::vector<Target>& targets) {
     TextTable table{"What the targets are", {{"Target", "Use", "Kind", "Source", "How it was read"}}};
     for (const auto& t : targets) {
         const auto& in = t.input;
-        const std::string how = in.is_curve() ? fmt::format("{}; strain offset {:.3g} taken off; x from {:.4g} to {:.4g}",
-                                                            fmt::join(t.file.notes, "; "), in.x_offset, t.curve.x.front(), t.curve.x.back())
-                                              : "as given";
+        const std::string how =
+            in.is_curve() ? fmt::format("{}; strain offset {:.3g} taken off; x from {:.4g} to {:.4g}", fmt::join(t.file.notes, "; "),
+                                        in.x_offset, t.file.compared.x.front(), t.file.compared.x.back())
+                          : "as given";
         table.rows.push_back({in.title(), in.use, in.kind, in.source, how});
     }
     return table;

@@ -52,7 +52,7 @@ std::vector<double> evenly(const SampledCurve& curve) {
 }
 
 void compare_curve(const Target& target, const TrialResult& result, const TrialFolders& folders, Comparison& out) {
-    out.curve.x = evenly(target.curve);
+    out.curve.x = evenly(target.file.compared);
     out.curve.y.assign(curve_points, 0.0);
     int n = 0;
     for (const auto& job : result.jobs) {
@@ -79,7 +79,7 @@ void compare_curve(const Target& target, const TrialResult& result, const TrialF
     double missed = 0.0;
     for (std::size_t k = 0; k < curve_points; ++k) {
         out.curve.y[k] /= n;
-        const double y = value_at(target.curve, out.curve.x[k]);
+        const double y = value_at(target.file.compared, out.curve.x[k]);
         own += y * y / curve_points;
         out.deviation.push_back(out.curve.y[k] - y);
         missed += out.deviation.back() * out.deviation.back() / curve_points;
@@ -97,7 +97,7 @@ std::vector<Target> make_targets(const CalibrationPlan& plan) {
     std::vector<Target> out;
     input::Problems problems;
     for (std::size_t k = 0; k < plan.input.targets.size(); ++k) {
-        Target t{plan.input.targets[k], plan.input.targets[k].weight, {}, {}};
+        Target t{plan.input.targets[k], plan.input.targets[k].weight, {}};
         std::string kind;
         double last = std::numeric_limits<double>::infinity(); // a strain that the user has the test end at
         for (const auto& test : plan.tests) {
@@ -111,7 +111,6 @@ std::vector<Target> make_targets(const CalibrationPlan& plan) {
         try {
             if (t.input.is_curve()) {
                 t.file = load_target_curve(t.input, kind, last);
-                t.curve = t.file.compared;
             }
         } catch (const std::runtime_error& e) {
             problems.push_back({plan.source, fmt::format("/targets/{}/curve", k), e.what(), "a table that holds the measured curve", ""});
@@ -187,7 +186,7 @@ void shorten(TrialTest& test, const std::vector<Target>& targets) {
             const double reach = t.input.x == "axial_strain"   ? 1.05
                                  : t.input.x == "gauge_strain" ? 1.3
                                                                : std::numeric_limits<double>::infinity();
-            last = std::max(last, reach * t.curve.x.back());
+            last = std::max(last, reach * t.file.compared.x.back());
         } else {
             results = true;
             to_the_peak = to_the_peak && std::find(before_the_peak.begin(), before_the_peak.end(), t.input.result) != before_the_peak.end();

@@ -15,8 +15,7 @@ namespace proveta {
 struct Target {
     TargetInput input;
     double weight = 1.0; ///< its own times its test's
-    TargetCurve file;    ///< of a curve: all that its file holds
-    SampledCurve curve;  ///< what of it is compared
+    TargetCurve file;    ///< of a curve
 };
 
 /// Loads the curves. Throws InputError with every problem.

@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
 #include "core/input/column_heading.hpp"
 #include "core/input/text_table.hpp"
-#include "core/input/units.hpp"
 #include "lab/derived.hpp"
 #include "materials/measured.hpp"
 
@@ -30,9 +27,8 @@ std::string plain(const std::string& quantity) {
 bool is_stress(const std::string& quantity) { return quantity.ends_with("stress"); }
 
 // A column in SI. key: "x" or "y" of the target's keys; by: its factor, of which the size may also come from the file's unit.
-std::vector<double> column(const input::TextTable& table, const std::string& wanted, const std::string& quantity, double by, char key,
+std::vector<double> column(const input::TextTable& table, std::size_t at, const std::string& quantity, double by, char key,
                            TargetCurve& out) {
-    const std::size_t at = table.find(wanted);
     const auto& c = table.columns()[at];
     const Unit dimension = is_stress(quantity) ? Unit::pressure : Unit::none;
     double factor = by;
@@ -51,7 +47,8 @@ std::vector<double> column(const input::TextTable& table, const std::string& wan
         factor = std::copysign(*unit, by);
     }
     const std::string unit = c.unit.empty() ? fmt::format("times {:.6g}", by) : "in " + c.unit;
-    out.notes.push_back(fmt::format("read '{}' as {}, {}", c.heading.empty() ? "column " + wanted : c.heading, plain(quantity), unit));
+    out.notes.push_back(
+        fmt::format("read '{}' as {}, {}", c.heading.empty() ? fmt::format("column {}", at + 1) : c.heading, plain(quantity), unit));
     auto values = table.numbers(at);
     for (double& v : values) {
         v *= factor;
@@ -61,10 +58,12 @@ std::vector<double> column(const input::TextTable& table, const std::string& wan
 
 SampledCurve from_table(const TargetInput& t, TargetCurve& out) {
     const input::TextTable table(t.curve);
-    SampledCurve all{column(table, t.x_column, t.x, t.x_factor, 'x', out), column(table, t.y_column, t.y, t.y_factor, 'y', out)};
+    const std::size_t x = table.find(t.x_column);
+    const std::size_t y = table.find(t.y_column);
+    SampledCurve all{column(table, x, t.x, t.x_factor, 'x', out), column(table, y, t.y, t.y_factor, 'y', out)};
     std::vector<std::string> unused;
     for (std::size_t c = 0; c < table.columns().size(); ++c) {
-        if (c != table.find(t.x_column) && c != table.find(t.y_column) && !table.columns()[c].heading.empty()) {
+        if (c != x && c != y && !table.columns()[c].heading.empty()) {
             unused.push_back("'" + table.columns()[c].heading + "'");
         }
     }
@@ -163,15 +162,14 @@ void check_modulus(const SampledCurve& c, const TargetInput& t, const std::strin
     if (!slope || (*slope >= low && *slope <= high)) {
         return;
     }
+    const std::string what =
+        fmt::format("a modulus of {:.4g} Pa between 10 % and 33 % of the peak, while materials have {:.4g} to {:.4g}", *slope, low, high);
     for (const double f : {1e-2, 1e-6, 1e-3}) {
         if (*slope > 0.0 && *slope / f >= low && *slope / f <= high) {
-            refuse(fmt::format("a modulus of {:.4g} Pa between 10 % and 33 % of the peak, while materials have {:.4g} to {:.4g}", *slope,
-                               low, high),
-                   'x', t.x_factor, f);
+            refuse(what, 'x', t.x_factor, f);
         }
     }
-    throw std::runtime_error(
-        fmt::format("a modulus of {:.4g} Pa between 10 % and 33 % of the peak, while materials have {:.4g} to {:.4g}", *slope, low, high));
+    throw std::runtime_error(what);
 }
 
 void take_off_toe(const TargetInput& t, TargetCurve& out) {
@@ -193,7 +191,6 @@ void take_off_toe(const TargetInput& t, TargetCurve& out) {
 void take_compared(const TargetInput& t, double last, TargetCurve& out) {
     const auto& m = out.measured;
     double reached = -std::numeric_limits<double>::infinity();
-    double range = 0.0;
     double back = 0.0; // farthest that x went back
     std::size_t left_out = 0;
     std::size_t beyond = 0;
@@ -220,7 +217,7 @@ void take_compared(const TargetInput& t, double last, TargetCurve& out) {
         throw std::runtime_error(fmt::format("{} points in the range that counts, at least 3 are wanted{}", kept,
                                              beyond > 0 ? fmt::format("; the test ends at {:.4g}", last) : ""));
     }
-    range = out.compared.x.back() - out.compared.x.front();
+    const double range = out.compared.x.back() - out.compared.x.front();
     if (left_out > kept + beyond) {
         throw std::runtime_error(fmt::format("{} goes back in {} of {} rows: they are not in the order of measurement; sort them by {}",
                                              plain(t.x), left_out, m.x.size(), plain(t.x)));

@@ -184,7 +184,7 @@ TEST_CASE("calibration: measured curves are put in order, scaled, shifted and fr
         const auto file =
             folder.file("c.json", calibration(tau, R"({"test": "ucs", "curve": "curve.txt", "y": "total_stress", "x_factor": -0.01,
             "y_factor": -1e6)" + more + "}"));
-        return make_targets(read_calibration(file)).at(0).curve;
+        return make_targets(read_calibration(file)).at(0).file.compared;
     };
     const SampledCurve whole = load("");
     CHECK(whole.x.size() == 41);
@@ -208,7 +208,7 @@ TEST_CASE("calibration: an experiment's file says whether its stress is total, a
     CHECK(std::isnan(curve.lateral_strain[2]));
     const auto target = [&](const std::string& more) {
         const auto file = folder.file("c.json", calibration(tau, R"({"test": "ucs", "curve": "p.csv")" + more + "}"));
-        return make_targets(read_calibration(file)).at(0).curve;
+        return make_targets(read_calibration(file)).at(0).file.compared;
     };
     CHECK(target(R"(, "y": "total_stress")").y.back() == Approx(34.5e6));
     CHECK(target(R"(, "y": "deviatoric_stress")").y.back() == Approx(30e6));
