@@ -90,6 +90,30 @@ Extent extent_of(const std::vector<ReadSphere>& spheres) {
     return out;
 }
 
+// Where the surface lies that spheres of the skin rest on. ends: how far each sphere reaches against the outward normal, lowest outermost.
+// Meshes that others relaxed have spheres that stand out of their faces, so that the farthest says little: most of the skin ends within a
+// narrow band about the face itself. A skin without such a band is rough, and ends at its farthest sphere.
+double surface_of(std::vector<double> ends, double grain) {
+    std::sort(ends.begin(), ends.end());
+    const double band = 0.25 * grain;
+    const double depth = 4.0 * grain;
+    const auto layer = std::upper_bound(ends.begin(), ends.end(), ends.front() + depth);
+    std::ptrdiff_t most = 0;
+    auto begin = ends.begin();
+    for (auto low = ends.begin(), high = ends.begin(); low != layer; ++low) {
+        while (high != layer && *high <= *low + band) {
+            ++high;
+        }
+        if (high - low > most) {
+            most = high - low;
+            begin = low;
+        }
+    }
+    const double evenly = static_cast<double>(layer - ends.begin()) * band / depth;
+    const bool clear = most >= 10 && static_cast<double>(most) > 2.0 * evenly;
+    return clear ? std::accumulate(begin, begin + most, 0.0) / static_cast<double>(most) : ends.front();
+}
+
 // Two spheres in one place are one that was written twice.
 void refuse_coincident(const std::string& file, const std::vector<ReadSphere>& spheres) {
     std::vector<std::size_t> order(spheres.size());
@@ -163,20 +187,34 @@ Imported import_specimen(const std::string& file, const ImportOptions& o) {
 
     Specimen& out = result.specimen;
     out.shape.kind = o.shape == "prism" ? ShapeKind::prism : ShapeKind::cylinder;
-    out.shape.height = o.height > 0.0 ? o.height : sides.z();
-    out.shape.width = o.width > 0.0 ? o.width : sides.x();
-    out.shape.depth = o.depth > 0.0 ? o.depth : sides.y();
-    const Vec3 middle = 0.5 * (extent.low + extent.high);
+    const bool round = out.shape.kind == ShapeKind::cylinder;
+    Vec3 low = extent.low;
+    Vec3 high = extent.high;
+    std::vector<double> ends(spheres.size());
+    for (int c = round ? 2 : 0; c < 3; ++c) { // flat faces
+        std::transform(spheres.begin(), spheres.end(), ends.begin(), [&](const auto& s) { return s.centre[c] - s.radius; });
+        low[c] = surface_of(ends, grain);
+        std::transform(spheres.begin(), spheres.end(), ends.begin(), [&](const auto& s) { return -s.centre[c] - s.radius; });
+        high[c] = -surface_of(ends, grain);
+    }
+    const Vec3 fitted = high - low;
+    const Vec3 middle = 0.5 * (low + high);
+    out.shape.height = o.height > 0.0 ? o.height : fitted.z();
+    out.shape.width = o.width > 0.0 ? o.width : fitted.x();
+    out.shape.depth = o.depth > 0.0 ? o.depth : fitted.y();
     double across = 0.0;
-    for (auto& s : spheres) {
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        auto& s = spheres[k];
         s.centre -= Vec3(middle.x(), middle.y(), middle.z() - 0.5 * out.shape.height);
-        across = std::max(across, std::hypot(s.centre.x(), s.centre.y()) + s.radius);
+        ends[k] = -std::hypot(s.centre.x(), s.centre.y()) - s.radius;
+        across = std::max(across, -ends[k]);
         out.spheres.centre.push_back(s.centre);
         out.spheres.radius.push_back(s.radius);
         out.group.push_back(s.group);
     }
-    out.shape.diameter = o.diameter > 0.0 ? o.diameter : 2.0 * across;
-    if (out.shape.kind == ShapeKind::cylinder && spheres.size() > 50) {
+    const double mantle = -2.0 * surface_of(ends, grain);
+    out.shape.diameter = o.diameter > 0.0 ? o.diameter : mantle;
+    if (round && spheres.size() > 50) {
         const std::string wrong = misfit(sides, across, grain, o.axis);
         if (!wrong.empty()) {
             fail(wrong);
@@ -192,17 +230,18 @@ Imported import_specimen(const std::string& file, const ImportOptions& o) {
     if (out.shape.height > 5.0 && !found.in_metres && o.scale <= 0.0) {
         result.warnings.push_back(fmt::format("{:.4g} m high: if the file is in mm, give --scale 0.001", out.shape.height));
     }
-    const auto compare = [&](const char* what, double said, double fitted) {
-        if (said > 0.0 && std::fabs(said - fitted) > std::max(2.0 * grain, 0.02 * fitted)) {
-            result.warnings.push_back(fmt::format("{} of {:.4g} mm where the spheres take {:.4g} mm", what, 1e3 * said, 1e3 * fitted));
+    const auto compare = [&](const char* what, double said, double found_there) {
+        if (said > 0.0 && std::fabs(said - found_there) > std::max(0.4 * grain, 0.002 * found_there)) {
+            result.warnings.push_back(fmt::format("{} of {:.4g} mm where the spheres take {:.4g} mm: platens start {} the skin", what,
+                                                  1e3 * said, 1e3 * found_there, said > found_there ? "away from" : "inside"));
         }
     };
-    compare("height", o.height, sides.z());
-    if (out.shape.kind == ShapeKind::cylinder) {
-        compare("diameter", o.diameter, 2.0 * across);
+    compare("height", o.height, fitted.z());
+    if (round) {
+        compare("diameter", o.diameter, mantle);
     } else {
-        compare("width", o.width, sides.x());
-        compare("depth", o.depth, sides.y());
+        compare("width", o.width, fitted.x());
+        compare("depth", o.depth, fitted.y());
     }
     out.recipe = {{"imported_from", std::filesystem::path(file).filename().string()}, {"axis", std::string(1, o.axis)}, {"scale", scale}};
     return result;

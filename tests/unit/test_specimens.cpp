@@ -1,10 +1,12 @@
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <random>
 
 #include "specimens/grading.hpp"
 #include "specimens/hdf5_file.hpp"
@@ -137,6 +139,54 @@ TEST_CASE("sphere meshes of other programs are read, with any axis") {
     const auto msh = folder.file("c.msh", "MESH dimension 3 ElemType Sphere Nnode 1\nCoordinates\n1 0 0 0\n2 0 0 1\nEnd Coordinates\n"
                                           "Elements\n1 1 0.5\n2 2 0.5\nEnd Elements\n");
     CHECK(import_specimen(msh, {}).specimen.shape.height == Approx(2.0));
+}
+
+TEST_CASE("the faces of an imported mesh are where its skin lies, not where one sphere stands out") {
+    const TemporaryFolder folder;
+    // A cylinder of 60 mm between faces 40 mm apart, its spheres moved by up to a tenth of a radius and one standing out by half of one.
+    SpecimenRecipe recipe;
+    recipe.shape = "cylinder";
+    recipe.diameter = 0.06;
+    recipe.height = 0.04;
+    recipe.spheres = 1500;
+    const Specimen smooth = make_specimen(recipe);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> part(-0.1, 0.1);
+    std::string table = "x,y,z,r\n";
+    std::size_t lowest = 0;
+    for (std::size_t k = 0; k < smooth.size(); ++k) {
+        const auto& c = smooth.spheres.centre;
+        lowest = c.z[k] - smooth.spheres.radius[k] < c.z[lowest] - smooth.spheres.radius[lowest] ? k : lowest;
+    }
+    for (std::size_t k = 0; k < smooth.size(); ++k) {
+        const Vec3 p = smooth.spheres.centre.at(k);
+        const double r = smooth.spheres.radius[k];
+        const double out = k == lowest ? -0.5 * r : 0.0;
+        table += fmt::format("{},{},{},{}\n", p.x() + part(random) * r, p.y() + part(random) * r, p.z() + part(random) * r + out, r);
+    }
+    const double grain = statistics(smooth).mean_radius;
+    const Imported fitted = import_specimen(folder.file("relaxed.csv", table), {});
+    CHECK(std::fabs(fitted.specimen.shape.height - 0.04) < 0.1 * grain);
+    CHECK(std::fabs(fitted.specimen.shape.diameter - 0.06) < 0.1 * grain);
+    CHECK(fitted.warnings.empty());
+    const Imported said = import_specimen(folder.file("relaxed.csv", table), {.height = 0.042});
+    REQUIRE(said.warnings.size() == 1);
+    CHECK(said.warnings[0].find("height of 42 mm where the spheres take") != std::string::npos);
+
+    // What was cut out of a larger mesh has no face: it ends at its farthest sphere.
+    std::string cut = "x,y,z,r\n";
+    double low = 1.0;
+    double high = 0.0;
+    for (std::size_t k = 0; k < smooth.size(); ++k) {
+        const Vec3 p = smooth.spheres.centre.at(k);
+        const double r = smooth.spheres.radius[k];
+        if (std::hypot(p.x(), p.y()) < 0.02 && std::fabs(p.z() - 0.02) < 0.01) {
+            cut += fmt::format("{},{},{},{}\n", p.x(), p.y(), p.z(), r);
+            low = std::min(low, p.z() - r);
+            high = std::max(high, p.z() + r);
+        }
+    }
+    CHECK(import_specimen(folder.file("cut.csv", cut), {}).specimen.shape.height == Approx(high - low));
 }
 
 TEST_CASE("broken sphere meshes are refused with file and line") {
