@@ -13,7 +13,7 @@ Platen make_platen(const Spheres& spheres, const Face& face, double position, do
     double discs = 0.0;
     for (std::size_t s = 0; s < spheres.size(); ++s) {
         const auto foot = p.foot(spheres.position.at(s));
-        if (foot.within && foot.distance <= (1.0 + capping) * spheres.radius[s]) {
+        if (face.reaches(foot, spheres.radius[s]) && foot.distance <= (1.0 + capping) * spheres.radius[s]) {
             p.capped[s] = foot.distance;
             discs += spheres.section(s);
         }
@@ -41,7 +41,8 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
     for (std::size_t s = 0; s < spheres.size(); ++s) {
         const double touch = p.capped[s] > 0.0 ? p.capped[s] : spheres.radius[s];
         const auto foot = p.foot(spheres.position.at(s));
-        if (!foot.within || foot.distance > touch + skin || foot.distance < 0.0) { // behind the surface: escaped, not pressed
+        if (!p.face.reaches(foot, spheres.radius[s]) || foot.distance > touch + skin ||
+            foot.distance < 0.0) { // behind the surface: escaped, not pressed
             continue;
         }
         const auto id = static_cast<std::int32_t>(s);
@@ -88,7 +89,7 @@ WallSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& blo
     const ListedRange range = listed_in(p.sphere, block);
     for (std::size_t k = range.begin; k < range.end; ++k) {
         const auto s = static_cast<std::size_t>(p.sphere[k]);
-        const auto [distance, n, within] = p.foot(spheres.position.at(s));
+        const auto [distance, n, aside] = p.foot(spheres.position.at(s));
         WallHistory history{p.slip.at(k), p.viscous.at(k)};
         const auto load =
             advance_wall(spheres, s, p.law[k], p.contact_distance[k], {distance, n, p.velocity * p.face.axis}, elapsed, dt, history, sum);

@@ -1,6 +1,7 @@
 // A rigid surface that meets spheres: a loading platen, a curved jaw, a ring around the specimen, or a wall that loose spheres meet.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -23,25 +24,28 @@ struct Face {
     double inward = 1.0;           ///< the specimen lies on this side of the position, +1 or -1
     double curvature = 0.0;        ///< of a hollow face: 1 / radius, 1/m; 0: flat
     double half_width = boundless; ///< reach on both sides of the axis, along z x axis, m
+    double edge = 0.0; ///< of a sphere's radius: how far inside the reach its centre lies when it is under the face, see `reaches`
 
     /// Where a point is seen from the face.
     struct Foot {
         double distance; ///< from the face, positive on the specimen's side, m
         Vec3 normal;     ///< unit vector from the face to the specimen
-        bool within;     ///< of the face's width
+        double aside;    ///< from the middle of the face's width, m; of a bounded hollow face's other side, infinity
     };
     [[nodiscard]] Foot foot(double position, const Vec3& point) const {
+        const auto beside = [&](const Vec3& p) { return half_width == boundless ? 0.0 : std::fabs(Vec3::UnitZ().cross(axis).dot(p)); };
         if (curvature == 0.0) {
-            const bool within = half_width == boundless || std::fabs(Vec3::UnitZ().cross(axis).dot(point)) <= half_width;
-            return {(point.dot(axis) - position) * inward, inward * axis, within};
+            return {(point.dot(axis) - position) * inward, inward * axis, beside(point)};
         }
         const Vec3 line = (position + inward / curvature) * axis;
         const Vec3 out(point.x() - line.x(), point.y() - line.y(), 0.0);
         const double r = out.norm();
-        const bool within = half_width == boundless || std::fabs(Vec3::UnitZ().cross(axis).dot(out)) <= half_width;
-        return {1.0 / curvature - r, r > 0.0 ? Vec3(-out / r) : Vec3(inward * axis),
-                within && (half_width == boundless || out.dot(axis) * inward <= 0.0)};
+        const bool behind = half_width != boundless && out.dot(axis) * inward > 0.0;
+        return {1.0 / curvature - r, r > 0.0 ? Vec3(-out / r) : Vec3(inward * axis), behind ? boundless : beside(out)};
     }
+    /// Whether a sphere of radius r lies under the face. A sphere hands its load on over its own breadth, so that a strip presses on more
+    /// than its width where spheres are large, unless those at its edges are left out. At most half of the width is given up.
+    [[nodiscard]] bool reaches(const Foot& foot, double r) const { return foot.aside <= half_width - std::min(edge * r, 0.5 * half_width); }
 };
 
 /// The inside of a ring of the given radius about the z axis, and the position that goes with it.

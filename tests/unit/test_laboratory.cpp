@@ -102,8 +102,8 @@ TEST_CASE("faces: distance, normal and width of flat, hollow and ring-shaped sur
     auto foot = flat.foot(0.05, {0.03, 0.005, 1.0});
     CHECK(foot.distance == Approx(0.02));
     CHECK((foot.normal - Vec3(-1, 0, 0)).norm() < 1e-15);
-    CHECK(foot.within);
-    CHECK_FALSE(flat.foot(0.05, {0.03, 0.02, 1.0}).within);
+    CHECK(flat.reaches(foot, 0.0));
+    CHECK_FALSE(flat.reaches(flat.foot(0.05, {0.03, 0.02, 1.0}), 0.0));
 
     // A jaw of 0.1 m radius whose nearest point is at x = -0.05: its line is at x = 0.05.
     const Face jaw{Vec3::UnitX(), 1.0, 1.0 / 0.1, Face::boundless};
@@ -119,13 +119,20 @@ TEST_CASE("faces: distance, normal and width of flat, hollow and ring-shaped sur
         foot = ring.foot(-0.2, {0.15 * std::cos(angle), 0.15 * std::sin(angle), 7.0});
         CHECK(foot.distance == Approx(0.05));
         CHECK((foot.normal + Vec3(std::cos(angle), std::sin(angle), 0.0)).norm() < 1e-12);
-        CHECK(foot.within);
+        CHECK(ring.reaches(foot, 0.0));
     }
 
     // A strip sees its own side of the cylinder only.
-    const Face strip{Vec3::UnitX(), 1.0, 1.0 / 0.1, 0.02};
-    CHECK(strip.foot(-0.1, {-0.095, 0.01, 0.0}).within);
-    CHECK_FALSE(strip.foot(-0.1, {0.095, 0.01, 0.0}).within);
+    Face strip{Vec3::UnitX(), 1.0, 1.0 / 0.1, 0.02};
+    CHECK(strip.reaches(strip.foot(-0.1, {-0.095, 0.01, 0.0}), 0.005));
+    CHECK_FALSE(strip.reaches(strip.foot(-0.1, {0.095, 0.01, 0.0}), 0.005));
+    CHECK_FALSE(strip.reaches(strip.foot(-0.1, {-0.095, 0.021, 0.0}), 0.005));
+    // At its edges a sphere's breadth counts, up to half of the strip; a face without bounds has no edges.
+    strip.edge = 0.5;
+    CHECK(strip.reaches(strip.foot(-0.1, {-0.095, 0.0174, 0.0}), 0.005));
+    CHECK_FALSE(strip.reaches(strip.foot(-0.1, {-0.095, 0.0176, 0.0}), 0.005));
+    CHECK(strip.reaches(strip.foot(-0.1, {-0.095, 0.0099, 0.0}), 0.1));
+    CHECK(Face{}.reaches(Face{}.foot(0.0, {5.0, 5.0, 0.1}), 1.0));
 }
 
 TEST_CASE("a curve that falls and recovers has its peak where it broke; ripples and falls of 4 % are none") {
