@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace proveta {
@@ -26,6 +27,20 @@ class Hash {
     void mix(const std::vector<double>& values) {
         for (const double v : values) {
             mix(std::bit_cast<std::uint64_t>(v));
+        }
+    }
+
+    /// A value of a state: a number, or how many there are and each of them.
+    void mix_value(double value) { mix(std::bit_cast<std::uint64_t>(value)); }
+    void mix_value(std::int64_t value) { mix(static_cast<std::uint64_t>(value)); }
+    template <class T> void mix_value(const std::vector<T>& values) {
+        mix(static_cast<std::uint64_t>(values.size()));
+        for (const T v : values) {
+            if constexpr (std::is_floating_point_v<T>) {
+                mix(std::bit_cast<std::uint64_t>(v));
+            } else {
+                mix(static_cast<std::uint64_t>(v));
+            }
         }
     }
 

@@ -98,24 +98,11 @@ void Model::restored() {
 
 std::uint64_t Model::state_hash() const {
     Hash hash;
-    for (const auto* f : {&spheres.position, &spheres.velocity, &spheres.spin, &bonds.slip, &contacts.slip}) {
-        hash.mix(f->x);
-        hash.mix(f->y);
-        hash.mix(f->z);
-    }
-    for (const auto& body : walls.bodies) {
-        for (const auto* field : {&body.solid.position, &body.solid.velocity}) {
-            for (const Vec3& v : *field) {
-                hash.mix(std::vector<double>(v.begin(), v.end()));
-            }
-        }
-    }
-    for (const auto* a : {&bonds.memory[0], &bonds.memory[1], &bonds.memory[2], &bonds.damage_work}) {
-        hash.mix(*a);
-    }
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-        hash.mix(static_cast<std::uint64_t>(contacts.i[k]) << 32 | static_cast<std::uint32_t>(contacts.j[k]));
-    }
+    // One list serves to store and to restore, so it is not const; who only reads leaves everything as it is.
+    const_cast<Model&>(*this).visit_state([&](const std::string& name, const auto& value) {
+        hash.mix(name.data(), name.size());
+        hash.mix_value(value);
+    });
     return hash.value();
 }
 

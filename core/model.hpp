@@ -105,7 +105,7 @@ class Model {
     /// Puts the skins of deformable bodies where their nodes are now, rather than at the last forces.
     void follow_bodies();
 
-    /// Hash (FNV-1a, 64 bits) of positions, velocities, spins and all bond and contact states: equal if and only if the bits are.
+    /// Hash (FNV-1a, 64 bits) of all that `visit_state` names: equal where the bits of two states are.
     [[nodiscard]] std::uint64_t state_hash() const;
 
     /// Calls visit(name, value) for everything that a later step depends on and that set-up does not give back: doubles, integers and

@@ -103,7 +103,8 @@ std::vector<report::Column> Instruments::curve_columns(bool area_now) {
         {"axial_strain", "", "closing of the platens over their distance at the start"},
         {"axial_stress", "Pa", "total axial stress: mean of both platens' force over the nominal area"},
         {"deviatoric_stress", "Pa", "axial minus lateral stress"},
-        {"lateral_stress", "Pa", "confining pressure, or mean of what the side presses on a ring"},
+        {"lateral_stress", "Pa", "mean of the forces that the side feels, from a ring, a membrane or a pressure, over its area"},
+        {"cell_pressure", "Pa", "that the test commands on the side; not a measurement"},
         {"gauge_axial_strain", "", "shortening of the middle gauge length along the loading"},
         {"circumferential_strain", "", "shortening of the girth at mid-height, from the lateral skin, or of the gauge across the loading"},
         {"volumetric_strain", "",
@@ -167,6 +168,20 @@ report::Table Instruments::empty_energy() {
     return t;
 }
 
+double Instruments::lateral_stress(const Model& m, const Press& press) {
+    if (press.side_area > 0.0) {
+        double held = 0.0;
+        for (std::size_t p = 2; p < m.walls.platens.size(); ++p) {
+            held += m.walls.platens[p].thrust;
+        }
+        return held / press.side_area;
+    }
+    if (!m.walls.bodies.empty()) {
+        return pressure_inside(m.walls.bodies.front());
+    }
+    return m.pressures.empty() ? 0.0 : side_stress(m.spheres, m.pressures.front());
+}
+
 void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& curve, report::Table& energy) {
     const Model& m = *bench.model;
     const Press& press = bench.press;
@@ -185,11 +200,7 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
     const bool wrapped = !m.walls.bodies.empty();
     const double squeezed = wrapped ? 1.0 - enclosed_volume(m.walls.bodies.front()) / volume_ : 0.0;
     const double volume = press.area_now ? squeezed : press.bands ? gauge + (m.spheres.planar ? 1.0 : 2.0) * girth : stretched.trace();
-    double held = 0.0;
-    for (std::size_t p = 2; p < m.walls.platens.size(); ++p) {
-        held += m.walls.platens[p].thrust;
-    }
-    const double lateral = press.side_area > 0.0 ? held / press.side_area : mark.pressure;
+    const double lateral = lateral_stress(m, press);
     const Mat3 inner = mean_stress(m, inner_);
     const double stress = 0.5 * (bottom + top) / area(m, press);
     curve.rows.push_back({m.time(),
@@ -199,6 +210,7 @@ void Instruments::sample(const Bench& bench, const Mark& mark, report::Table& cu
                           stress,
                           stress - lateral,
                           lateral,
+                          mark.pressure,
                           gauge,
                           girth,
                           volume,

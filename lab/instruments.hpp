@@ -46,6 +46,9 @@ class Instruments {
     /// Love-Weber stress averaged over an inner region, Pa: (1/V) sum of force times branch, each branch with its fraction inside.
     [[nodiscard]] Mat3 mean_stress(const Model& model, const Shape::Region& region) const;
 
+    /// Mean stress on the side from the forces that act there, Pa: on a ring, from a membrane or from a pressure; 0 where nothing does.
+    [[nodiscard]] static double lateral_stress(const Model& model, const Press& press);
+
     /// Area that stress is force over now, m2.
     [[nodiscard]] static double area(const Model& model, const Press& press);
 

@@ -95,6 +95,16 @@ double middle_radius(const Deformable& membrane) {
     return sum / count;
 }
 
+double pressure_inside(const Deformable& membrane) {
+    double inward = 0.0;
+    for (const auto& block : membrane.touches) {
+        for (const auto& t : block) {
+            inward -= t.force.x() * t.point.x() + t.force.y() * t.point.y();
+        }
+    }
+    return 0.5 * inward / enclosed_volume(membrane);
+}
+
 double axial_force(const Deformable& membrane) {
     const auto& holds = membrane.solid.holds;
     return 0.5 * (holds[1].reaction.z() - holds[0].reaction.z());

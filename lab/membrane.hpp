@@ -41,6 +41,10 @@ double enclosed_volume(const Deformable& membrane);
 /// Mean distance of the membrane from the axis within a sixth of the height about the middle, m.
 double middle_radius(const Deformable& membrane);
 
+/// What the membrane presses on the specimen with, Pa: that of the contacts' forces at the last step which does work when the volume inside
+/// changes all round. What the rubber's own tension adds to the cell's pressure is in it.
+double pressure_inside(const Deformable& membrane);
+
 /// Force that the membrane itself bears along the axis, compression positive: mean of both ends, N.
 double axial_force(const Deformable& membrane);
 

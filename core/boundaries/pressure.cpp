@@ -113,4 +113,16 @@ double pressure_forces(const Spheres& spheres, Pressure& p, const SphereBlock& b
     return work;
 }
 
+double side_stress(const Spheres& spheres, const Pressure& p) {
+    double inward = 0.0;
+    double twice_volume = 0.0;
+    for (std::uint32_t k = 0; k < p.sphere.size(); ++k) {
+        const Vec3 at = corner(spheres, p, k);
+        const Vec3 area = area_of(spheres, p, k);
+        inward -= p.force.x[k] * at.x() + p.force.y[k] * at.y();
+        twice_volume += area.x() * at.x() + area.y() * at.y();
+    }
+    return twice_volume > 0.0 ? inward / twice_volume : 0.0;
+}
+
 } // namespace proveta

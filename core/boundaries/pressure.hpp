@@ -40,4 +40,8 @@ Pressure make_pressure(const Spheres& spheres, std::vector<std::int32_t> sphere,
 /// done in the step of dt seconds, J.
 double pressure_forces(const Spheres& spheres, Pressure& pressure, const SphereBlock& block, double dt, Loads& loads);
 
+/// What the forces of the last step come to over the surface as it is now: the pressure, even all round, that would do the same work on a
+/// small swelling of the side, Pa. Across z alone, as the ends are the platens'.
+double side_stress(const Spheres& spheres, const Pressure& pressure);
+
 } // namespace proveta
