@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <stdexcept>
 
 #include "core/input/units.hpp"
+#include "core/input/words.hpp"
 
 namespace proveta::input {
 
@@ -17,10 +17,8 @@ constexpr std::array dimensions{Unit::length,          Unit::area,  Unit::pressu
                                 Unit::energy_per_area, Unit::force, Unit::angle,    Unit::rate,    Unit::none,     Unit::angular_velocity,
                                 Unit::acceleration};
 
-std::string trimmed(const std::string& s) {
-    const auto first = s.find_first_not_of(" \t_");
-    return first == std::string::npos ? "" : s.substr(first, s.find_last_not_of(" \t_") - first + 1);
-}
+// Underscores stand for blanks in headings.
+std::string bare(std::string_view text) { return std::string(trimmed(text, " \t_")); }
 
 void replace_all(std::string& s, const std::string& from, const std::string& to) {
     for (auto at = s.find(from); at != std::string::npos; at = s.find(from, at + to.size())) {
@@ -90,9 +88,9 @@ std::optional<double> unit_factor(const std::string& unit, Unit dimension) {
 }
 
 std::string unit_in_brackets(const std::string& cell) {
-    std::string unit = trimmed(cell);
+    std::string unit = bare(cell);
     if (unit.size() > 1 && ((unit.front() == '[' && unit.back() == ']') || (unit.front() == '(' && unit.back() == ')'))) {
-        unit = trimmed(unit.substr(1, unit.size() - 2));
+        unit = bare(unit.substr(1, unit.size() - 2));
     }
     return is_unit(unit) ? unit : "";
 }
@@ -100,7 +98,7 @@ std::string unit_in_brackets(const std::string& cell) {
 bool is_row_of_units(const std::vector<std::string_view>& cells) {
     bool any = false;
     for (const auto cell : cells) {
-        const std::string text = trimmed(std::string(cell));
+        const std::string text = bare(cell);
         if (text.empty() || text == "[]") {
             continue;
         }
@@ -113,10 +111,10 @@ bool is_row_of_units(const std::vector<std::string_view>& cells) {
 }
 
 TextColumn column_of_heading(const std::string& heading) {
-    TextColumn out{heading, trimmed(heading), ""};
+    TextColumn out{heading, bare(heading), ""};
     const auto split_at = [&](std::size_t name_end, std::size_t unit_begin, std::size_t unit_end) {
-        const std::string unit = trimmed(heading.substr(unit_begin, unit_end - unit_begin));
-        const std::string name = trimmed(heading.substr(0, name_end));
+        const std::string unit = bare(heading.substr(unit_begin, unit_end - unit_begin));
+        const std::string name = bare(heading.substr(0, name_end));
         if (name.empty() || !is_unit(unit)) {
             return false;
         }
@@ -134,7 +132,7 @@ TextColumn column_of_heading(const std::string& heading) {
     for (const std::string mark : {" in ", "/", ",", ";", "_", " "}) {
         // From the left, so that "force / kN/m" has the longest unit that is one.
         for (auto at = heading.find(mark); at != std::string::npos; at = heading.find(mark, at + 1)) {
-            const std::string unit = trimmed(heading.substr(at + mark.size()));
+            const std::string unit = bare(heading.substr(at + mark.size()));
             // What counts columns ("strain 1") is no unit without brackets.
             if (unit != "-" && unit != "1" && split_at(at, at + mark.size(), heading.size())) {
                 return out;
@@ -146,15 +144,15 @@ TextColumn column_of_heading(const std::string& heading) {
 
 std::string plain_name(const std::string& name) {
     std::string out;
-    for (const char c : trimmed(name)) {
+    for (const char c : lower_case(bare(name))) {
         const bool gap = c == ' ' || c == '_' || c == '-' || c == '.' || c == '\t';
         if (!gap) {
-            out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            out += c;
         } else if (!out.empty() && out.back() != ' ') {
             out += ' ';
         }
     }
-    return trimmed(out);
+    return bare(out);
 }
 
 std::optional<MatchedColumn> match_column(const TextTable& table, const WantedColumn& wanted) {

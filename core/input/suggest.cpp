@@ -1,16 +1,12 @@
 #include "core/input/suggest.hpp"
 
 #include <algorithm>
-#include <cctype>
+
+#include "core/input/words.hpp"
 
 namespace proveta::input {
 
 namespace {
-
-std::string lower(std::string s) {
-    std::transform(s.begin(), s.end(), s.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return s;
-}
 
 // Edits (insert, delete, replace, swap of neighbours) between two words.
 std::size_t edits(const std::string& a, const std::string& b) {
@@ -39,7 +35,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     std::string best;
     std::size_t fewest = std::max<std::size_t>(1, (word.size() + 2) / 3) + 1;
     for (const auto& c : candidates) {
-        const std::size_t n = edits(lower(word), lower(c));
+        const std::size_t n = edits(lower_case(word), lower_case(c));
         if (n < fewest) {
             fewest = n;
             best = c;

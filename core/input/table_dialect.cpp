@@ -9,12 +9,14 @@
 #include <limits>
 #include <map>
 
+#include "core/input/words.hpp"
+
 namespace proveta::input {
 
 namespace {
 
 std::string_view unquoted(std::string_view s) {
-    return s.size() > 1 && (s.front() == '"' || s.front() == '\'') && s.back() == s.front() ? without_blanks(s.substr(1, s.size() - 2)) : s;
+    return s.size() > 1 && (s.front() == '"' || s.front() == '\'') && s.back() == s.front() ? trimmed(s.substr(1, s.size() - 2)) : s;
 }
 
 bool is_missing(std::string_view s) {
@@ -28,11 +30,6 @@ const char* name_of(char separator) {
 }
 
 } // namespace
-
-std::string_view without_blanks(std::string_view s) {
-    const auto first = s.find_first_not_of(" \t");
-    return first == std::string_view::npos ? std::string_view{} : s.substr(first, s.find_last_not_of(" \t") - first + 1);
-}
 
 Cell TableDialect::kind(std::string_view cell, double& value) const {
     const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
@@ -75,7 +72,7 @@ bool TableDialect::split(std::string_view line, std::vector<std::string_view>& c
         while (at < line.size() && !separates(line[at])) {
             ++at;
         }
-        cells.push_back(unquoted(without_blanks(line.substr(start, at - start))));
+        cells.push_back(unquoted(trimmed(line.substr(start, at - start))));
         if (at >= line.size()) {
             return true;
         }

@@ -25,6 +25,4 @@ struct TableDialect {
 /// The dialect in which most of the lines are rows of one number of cells with numbers in them.
 TableDialect dialect_of(const std::vector<std::string_view>& lines);
 
-std::string_view without_blanks(std::string_view text);
-
 } // namespace proveta::input

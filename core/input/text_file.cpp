@@ -12,26 +12,41 @@
 
 namespace proveta::input {
 
-std::string read_text(const std::string& file, std::uintmax_t most) {
+namespace {
+
+std::runtime_error too_long(const std::string& file, std::uintmax_t most) {
+    return std::runtime_error(fmt::format("{}: more than {} MiB", file, most >> 20));
+}
+
+} // namespace
+
+void require_size(const std::string& file, std::uintmax_t most) {
     namespace fs = std::filesystem;
-    const auto too_long = [&] { return std::runtime_error(fmt::format("{}: more than {} MiB", file, most >> 20)); };
     std::error_code error;
     if (fs::is_directory(file, error)) {
         throw std::runtime_error(file + ": a folder");
     }
     if (fs::is_regular_file(file, error) && fs::file_size(file, error) > most) {
-        throw too_long(); // without reading any of it
+        throw too_long(file, most);
     }
+}
+
+std::string read_text(const std::string& file, std::uintmax_t most) {
+    require_size(file, most);
     std::ifstream in(file, std::ios::binary);
     if (!in) {
         throw std::runtime_error(file + ": cannot be read");
     }
     std::string text;
+    std::error_code unknown; // as of a pipe
+    if (const auto size = std::filesystem::file_size(file, unknown); !unknown) {
+        text.reserve(size + 1); // of no more than `most`, or of a few bytes where the file is none
+    }
     std::array<char, 65536> piece;
     while (in.read(piece.data(), piece.size()) || in.gcount() > 0) {
         text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
         if (text.size() > most) {
-            throw too_long();
+            throw too_long(file, most);
         }
     }
     return text;

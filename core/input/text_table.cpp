@@ -10,7 +10,7 @@
 
 #include "core/input/column_heading.hpp"
 #include "core/input/suggest.hpp"
-#include "core/input/text_file.hpp"
+#include "core/input/words.hpp"
 
 namespace proveta::input {
 
@@ -20,18 +20,8 @@ constexpr std::size_t looked_at = 400; // lines from which dialect and columns a
 
 // A comment, or nothing at all; "#N/A" is a missing cell.
 bool is_comment(std::string_view line) {
-    const auto s = without_blanks(line);
+    const auto s = trimmed(line);
     return s.empty() || (s.front() == '#' && !s.starts_with("#N/A") && !s.starts_with("#NA")) || s.starts_with("//");
-}
-
-std::vector<std::string_view> lines_of(std::string_view text) {
-    std::vector<std::string_view> out;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto end = std::min(text.find_first_of("\r\n", at), text.size());
-        out.push_back(text.substr(at, end - at));
-        at = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
-    }
-    return out;
 }
 
 // "x [mm] y [mm]" in a file where blanks separate: a unit belongs to the word before it. Where that does not give as many cells as there
@@ -93,30 +83,30 @@ void TextTable::fail(std::size_t line, const std::string& what) const {
     throw std::runtime_error(fmt::format("{}: line {}: {}", file_, line, what));
 }
 
-void TextTable::split(std::size_t line, std::vector<std::string_view>& cells) const {
-    if (!dialect_.split(lines_[line], cells)) {
-        fail(line + 1, "a quotation mark that never closes");
+void TextTable::split(std::string_view text, std::size_t line, std::vector<std::string_view>& cells) const {
+    if (!dialect_.split(text, cells)) {
+        fail(line, "a quotation mark that never closes");
     }
 }
 
 TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(file)), text_(read_text(file_, most)) {
     text_ = as_utf8(std::move(text_), file_);
-    lines_ = lines_of(text_);
-    std::vector<std::size_t> first;
-    for (std::size_t k = 0; k < lines_.size() && first.size() < looked_at; ++k) {
-        if (!is_comment(lines_[k])) {
-            first.push_back(k);
-        }
-    }
     std::vector<std::string_view> sample;
-    for (const auto k : first) {
-        sample.push_back(lines_[k]);
+    std::vector<std::size_t> first; // their numbers, from 1
+    std::size_t number = 0;
+    for (std::size_t at = 0; at < text_.size() && sample.size() < looked_at;) {
+        const auto line = take_line(text_, at);
+        ++number;
+        if (!is_comment(line)) {
+            sample.push_back(line);
+            first.push_back(number);
+        }
     }
     dialect_ = dialect_of(sample);
 
     std::vector<std::vector<std::string_view>> rows(first.size());
     for (std::size_t k = 0; k < first.size(); ++k) {
-        split(first[k], rows[k]);
+        split(sample[k], first[k], rows[k]);
     }
     const std::size_t width = width_of(rows, dialect_);
     if (width == 0) {
@@ -161,7 +151,7 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
     columns_.resize(width);
     name_columns(above);
     if (above.empty() && begin > 0) {
-        passed_over_ = fmt::format("line {} was not taken for headings: it has {} cells where the rows have {}", first[begin - 1] + 1,
+        passed_over_ = fmt::format("line {} was not taken for headings: it has {} cells where the rows have {}", first[begin - 1],
                                    rows[begin - 1].size(), width);
     }
     const std::size_t start = names_end > 0 ? names_end : begin;
@@ -169,25 +159,29 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
         throw std::runtime_error(file_ + ": no rows of numbers");
     }
 
+    const auto lines = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
+    cells_.reserve(width * lines);
+    line_.reserve(lines);
     std::vector<std::string_view> cells;
-    for (std::size_t k = first[start]; k < lines_.size(); ++k) {
-        if (is_comment(lines_[k])) {
+    number = first[start] - 1;
+    for (auto at = static_cast<std::size_t>(sample[start].data() - text_.data()); at < text_.size();) {
+        const auto line = take_line(text_, at);
+        ++number;
+        if (is_comment(line)) {
             continue;
         }
-        split(k, cells);
+        split(line, number, cells);
         if (cells.size() == width + 1 && cells.back().empty() && dialect_.separator != ' ') {
             cells.pop_back(); // a separator at the end of the line
         }
         if (cells.size() != width) {
             const bool commas = dialect_.separator == ',' && cells.size() > width;
-            fail(k + 1, fmt::format("{} cells where the other rows have {}{}", cells.size(), width,
-                                    commas ? "; if decimals have a comma here, separate cells by semicolons or tabs" : ""));
+            fail(number, fmt::format("{} cells where the other rows have {}{}", cells.size(), width,
+                                     commas ? "; if decimals have a comma here, separate cells by semicolons or tabs" : ""));
         }
         cells_.insert(cells_.end(), cells.begin(), cells.end());
-        line_.push_back(k + 1);
+        line_.push_back(number);
     }
-    lines_.clear();
-    lines_.shrink_to_fit();
 }
 
 void TextTable::name_columns(const std::vector<std::vector<std::string_view>>& above) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/input/table_dialect.hpp"
+#include "core/input/text_file.hpp"
 
 namespace proveta::input {
 
@@ -24,7 +25,7 @@ class TextTable {
   public:
     /// Reads a file. Throws std::runtime_error naming file, line and what is wrong: no rows, a row with other columns than the rest, quotes
     /// that never close, a decimal comma where commas separate too. most: bytes, more are refused.
-    explicit TextTable(std::string file, std::uintmax_t most = std::uintmax_t{64} << 20);
+    explicit TextTable(std::string file, std::uintmax_t most = longest_table);
 
     [[nodiscard]] const std::string& file() const { return file_; }
     [[nodiscard]] const std::vector<TextColumn>& columns() const { return columns_; }
@@ -48,12 +49,11 @@ class TextTable {
 
   private:
     [[noreturn]] void fail(std::size_t line, const std::string& what) const;
-    void split(std::size_t line, std::vector<std::string_view>& cells) const;
+    void split(std::string_view text, std::size_t line, std::vector<std::string_view>& cells) const;
     void name_columns(const std::vector<std::vector<std::string_view>>& above);
 
     std::string file_;
     std::string text_;
-    std::vector<std::string_view> lines_; // of the whole file
     TableDialect dialect_;
     bool headings_ = false;
     std::string passed_over_; // why what stands above the rows does not name the columns

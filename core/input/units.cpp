@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/input/words.hpp"
+
 namespace proveta::input {
 
 namespace {
@@ -57,12 +59,6 @@ const std::vector<Named>& table(Unit unit) {
     return none;
 }
 
-std::string trim(const std::string& text) {
-    const auto first = text.find_first_not_of(" \t\r\n");
-    const auto last = text.find_last_not_of(" \t\r\n");
-    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
 } // namespace
 
 std::string si_unit(Unit unit) { return table(unit).front().text; }
@@ -78,14 +74,14 @@ std::vector<std::string> accepted_units(Unit unit) {
 }
 
 Quantity parse_quantity(const std::string& text, Unit unit) {
-    const std::string t = trim(text);
+    const std::string_view t = trimmed(text);
     double value = 0.0;
     const char* begin = t.data() + (t.starts_with('+') ? 1 : 0);
     const auto [end, error] = std::from_chars(begin, t.data() + t.size(), value);
     if (error != std::errc() || !std::isfinite(value)) {
         return {0.0, "no finite number in it"};
     }
-    const std::string name = trim(std::string(end, t.data() + t.size()));
+    const std::string_view name = trimmed({end, t.data() + t.size()});
     for (const auto& n : table(unit)) {
         if (name == n.text || (name.empty() && n.factor == 1.0)) {
             return {value * n.factor, ""};
