@@ -15,12 +15,11 @@ namespace proveta {
 
 namespace {
 
-constexpr std::uintmax_t longest = 64 << 20; // bytes, some million rows
 constexpr const char* heading = "confinement_MPa,axial_strain,lateral_strain,axial_stress_MPa,kind";
 
 // Lines that are no comments, without blanks and quotes, at most two: the headings and whether anything follows.
 std::vector<std::string> first_lines(const std::string& file) {
-    std::istringstream in(input::as_utf8(input::read_text(file, longest), file));
+    std::istringstream in(input::as_utf8(input::read_text(file, input::longest_table), file));
     std::vector<std::string> out;
     for (std::string line; out.size() < 2 && std::getline(in, line);) {
         std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0 || c == '"'; });
@@ -52,7 +51,7 @@ MeasuredCurve load_measured_curve(const std::string& file) {
     if (lines.size() < 2) {
         return curve;
     }
-    const input::TextTable table(file, longest);
+    const input::TextTable table(file);
     const auto column = [&](const char* name) { return table.numbers(table.find(name)); };
     const auto confinement = column("confinement_MPa");
     curve.axial_strain = column("axial_strain");

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/input/suggest.hpp"
+#include "core/input/text_file.hpp"
 #include "core/input/units.hpp"
 #include "lab/provenance.hpp"
 #include "lab/results.hpp"
@@ -249,7 +250,12 @@ CalibrationPlan read_calibration(const std::string& file) {
         check_result(t, plan.written["targets"][k], fmt::format("/targets/{}", k), plan.tests, file, problems);
         if (t.is_curve()) {
             t.curve = (std::filesystem::absolute(plan.source).parent_path() / t.curve).lexically_normal().string();
-            curves.push_back(t.curve);
+            try { // before its hash is taken, which would read all of it
+                input::require_size(t.curve, input::longest_table);
+                curves.push_back(t.curve);
+            } catch (const std::runtime_error& e) {
+                problems.push_back({file, fmt::format("/targets/{}/curve", k), e.what(), "a table of a measured curve", ""});
+            }
         }
     }
     plan.files = begun.is_object() ? begun.value("files", Json::object()) : hashes_of(plan.tests);

@@ -13,6 +13,11 @@ HUGE = 10 << 30  # bytes, of which a sparse file takes none
 MOST = 1 << 30  # bytes that the program may take to refuse any of this; the most is a deck of 16 MiB whose every word is wrong
 
 
+def seconds_of_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 class Limits(Case):
     def refused(self, *arguments, says, **options):
         def limit():
@@ -86,7 +91,9 @@ class Limits(Case):
         for curve in (self.sparse("curve.csv"), "/dev/zero"):
             content = {"tests": [{"name": "u", "deck": case.SMALL}], "parameters": [{"path": "material.tensile_strength", "low": 1e6, "high": 2e6}],
                        "targets": [{"test": "u", "curve": str(curve), "y": "total_stress"}]}
+            before = seconds_of_children()
             self.refused("calibrate", self.deck(content, "calibration.json"), "--out", "out", says="more than 64 MiB")
+            self.assertLess(seconds_of_children() - before, 5)  # no hash of 10 GB was taken
 
     def test_tests_that_need_more_memory_than_there_is(self):
         self.refused("run", self.deck(specimen={"spheres": 20000000}), "--out", "out", says=["/specimen/spheres", "GiB", "20000000"])
