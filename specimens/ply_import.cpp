@@ -1,199 +1,211 @@
-#include "specimens/ply_import.hpp"
-
+// Surfaces of PLY files.
 #include <fmt/format.h>
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <map>
+#include <limits>
+#include <optional>
 #include <stdexcept>
-#include <vector>
 
+#include "core/input/words.hpp"
+#include "specimens/ply_header.hpp"
 #include "specimens/solid_content.hpp"
+#include "specimens/surface_content.hpp"
 
-namespace proveta {
+namespace proveta::surface_files {
 
 namespace {
 
+using input::shown;
 using solid_files::parse;
-using solid_files::shown;
-using solid_files::space;
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-const std::map<std::string_view, Type> types{
-    {"char", Type::int8},     {"int8", Type::int8},       {"uchar", Type::uint8},    {"uint8", Type::uint8},
-    {"short", Type::int16},   {"int16", Type::int16},     {"ushort", Type::uint16},  {"uint16", Type::uint16},
-    {"int", Type::int32},     {"int32", Type::int32},     {"uint", Type::uint32},    {"uint32", Type::uint32},
-    {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64}};
-
-struct Property {
-    std::string name;
-    Type type = Type::float32;
-    bool list = false;
-    Type count = Type::uint8; ///< of a list
-};
-
-struct ElementKind {
-    std::string name;
-    std::size_t number = 0;
-    std::vector<Property> properties;
-};
-
-class Ply {
+class PlyReader {
   public:
-    explicit Ply(const std::string& file) : file_(file), text_(solid_files::text_of(file)) {
-        points_->SetDataTypeToDouble();
-        read_header();
+    explicit PlyReader(const std::string& file) : file_(file), text_(solid_files::text_of(file)), header_(read_ply_header(text_, file)) {
+        at_ = header_.end;
+        line_ = header_.lines;
     }
 
-    vtkSmartPointer<vtkPolyData> read() {
-        for (const ElementKind& kind : kinds_) {
-            for (std::size_t k = 0; k < kind.number && !kind.properties.empty(); ++k) {
+    Faces read() {
+        for (const PlyElement& kind : header_.elements) {
+            const bool known = kind.name == "vertex" || kind.name == "face" || kind.name == "tristrips";
+            for (number_ = 1; number_ <= kind.number; ++number_) {
+                kind_ = &kind;
+                begin_element();
                 read_element(kind);
+                end_element();
+            }
+            if (!known && kind.number > 0) {
+                out_.notes.push_back(fmt::format("{} elements {} were passed over", kind.number, shown(kind.name)));
             }
         }
-        auto out = vtkSmartPointer<vtkPolyData>::New();
-        out->SetPoints(points_);
-        out->SetPolys(faces_);
-        return out;
+        look_at_the_rest();
+        refuse(file_, problems_);
+        return std::move(out_);
     }
 
   private:
-    [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(file_ + ": " + what); }
+    [[nodiscard]] std::string here() const {
+        return header_.binary ? fmt::format("{} {}", kind_->name, number_) : fmt::format("line {}: {} {}", line_, kind_->name, number_);
+    }
+    [[noreturn]] void fail(const std::string& what) {
+        problems_.push_back(here() + ": " + what);
+        refuse(file_, problems_);
+        throw std::logic_error("a refusal without a problem");
+    }
     [[nodiscard]] std::size_t left() const { return text_.size() - at_; }
 
-    std::vector<std::string_view> line() {
-        if (at_ >= text_.size()) {
-            fail("the file ends before end_header");
-        }
-        const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-        const std::string_view whole = std::string_view(text_).substr(at_, end - at_);
-        at_ = std::min(end + 1, text_.size());
-        return solid_files::words_of(whole);
-    }
-    [[nodiscard]] Type type_of(std::string_view word) const {
-        const auto found = types.find(word);
-        if (found == types.end()) {
-            fail(fmt::format("{} is no type of a property", shown(word)));
-        }
-        return found->second;
-    }
-
-    void read_header() {
-        if (const auto first = line(); first.size() != 1 || first[0] != "ply") {
-            fail("ply is expected in the first line");
-        }
-        for (auto words = line(); words.empty() || words[0] != "end_header"; words = line()) {
-            if (words.empty() || words[0] == "comment" || words[0] == "obj_info") {
-                continue;
+    // The next line with text; false at the end of the file.
+    bool next_line() {
+        do {
+            if (at_ >= text_.size()) {
+                return false;
             }
-            if (words[0] == "format" && words.size() == 3) {
-                binary_ = words[1] != "ascii";
-                turned_ = words[1] == (std::endian::native == std::endian::little ? "binary_big_endian" : "binary_little_endian");
-            } else if (words[0] == "element" && words.size() == 3) {
-                ElementKind& kind = kinds_.emplace_back();
-                kind.name = words[1];
-                if (!parse(words[2], kind.number) || kind.number > left()) {
-                    fail(fmt::format("{} {} are announced, which a file of {} bytes cannot hold", shown(words[2]), shown(words[1]),
-                                     text_.size()));
-                }
-            } else if (words[0] == "property" && words.size() == 3 && !kinds_.empty()) {
-                kinds_.back().properties.push_back({std::string(words[2]), type_of(words[1])});
-            } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" && !kinds_.empty()) {
-                kinds_.back().properties.push_back({std::string(words[4]), type_of(words[3]), true, type_of(words[2])});
-            } else {
-                fail(fmt::format("{} is not understood in the header", shown(words[0])));
-            }
+            const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+            words_ = input::words_of(std::string_view(text_).substr(at_, end - at_));
+            at_ = std::min(end + (text_.compare(end, 2, "\r\n") == 0 ? 2 : 1), text_.size());
+            ++line_;
+        } while (words_.empty());
+        return true;
+    }
+    // An element of a text has a line of its own, unless it has no properties.
+    void begin_element() {
+        word_ = 0;
+        words_.clear();
+        if (!header_.binary && !kind_->properties.empty() && !next_line()) {
+            fail(fmt::format("the file ends before it, and {} are announced: it is cut short", kind_->number));
+        }
+    }
+    void end_element() {
+        if (word_ != words_.size()) {
+            fail(fmt::format("{} numbers are expected and {} were found", word_, words_.size()));
         }
     }
 
     template <class Number> double binary() {
         if (left() < sizeof(Number)) {
-            fail("the file ends too early");
+            fail(fmt::format("the file ends in it, and {} are announced: it is cut short", kind_->number));
         }
         char bytes[sizeof(Number)];
         std::copy_n(text_.data() + at_, sizeof(Number), bytes);
         at_ += sizeof(Number);
-        if (turned_) {
+        if (header_.turned) {
             std::reverse(std::begin(bytes), std::end(bytes));
         }
         Number value;
         std::memcpy(&value, bytes, sizeof value);
         return static_cast<double>(value);
     }
-    double number(Type type) {
-        if (binary_) {
+    double number(PlyType type) {
+        if (header_.binary) {
             switch (type) {
-            case Type::int8: return binary<std::int8_t>();
-            case Type::uint8: return binary<std::uint8_t>();
-            case Type::int16: return binary<std::int16_t>();
-            case Type::uint16: return binary<std::uint16_t>();
-            case Type::int32: return binary<std::int32_t>();
-            case Type::uint32: return binary<std::uint32_t>();
-            case Type::float32: return binary<float>();
-            case Type::float64: return binary<double>();
+            case PlyType::int8: return binary<std::int8_t>();
+            case PlyType::uint8: return binary<std::uint8_t>();
+            case PlyType::int16: return binary<std::int16_t>();
+            case PlyType::uint16: return binary<std::uint16_t>();
+            case PlyType::int32: return binary<std::int32_t>();
+            case PlyType::uint32: return binary<std::uint32_t>();
+            case PlyType::float32: return binary<float>();
+            case PlyType::float64: return binary<double>();
             }
         }
-        const std::size_t from = std::min(text_.find_first_not_of(space, at_), text_.size());
-        at_ = std::min(text_.find_first_of(space, from), text_.size());
-        const auto word = std::string_view(text_).substr(from, at_ - from);
         double value = 0.0;
-        if (!parse(word, value)) {
-            fail(word.empty() ? "the file ends too early" : fmt::format("a number is expected and {} was found", shown(word)));
+        if (word_ >= words_.size() || !parse(words_[word_], value)) {
+            fail(word_ >= words_.size() ? fmt::format("the line ends after {} numbers, and there should be more", words_.size())
+                                        : fmt::format("a number is expected and {} was found", shown(words_[word_])));
         }
+        ++word_;
         return value;
     }
-    // A number of values to come or of a vertex: whole, and below a bound.
-    std::size_t whole(Type type, std::size_t below, const char* what) {
-        const double value = number(type);
-        if (!(value >= 0.0 && value < static_cast<double>(below)) || value != std::floor(value)) {
-            fail(fmt::format("{} is {}, which there cannot be", what, value));
-        }
-        return static_cast<std::size_t>(value);
+    // A length or the number of a vertex; none where it is not whole or not below a bound.
+    std::optional<std::size_t> whole(double value, std::size_t below) {
+        const bool fits = value >= 0.0 && value < static_cast<double>(below) && value == std::floor(value);
+        return fits ? std::optional(static_cast<std::size_t>(value)) : std::nullopt;
     }
+    void problem(const std::string& what) { problems_.push_back(here() + ": " + what); }
 
-    void read_element(const ElementKind& kind) {
-        double place[3] = {0.0, 0.0, 0.0};
-        for (const Property& p : kind.properties) {
-            const bool face = p.list && kind.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
-            const std::size_t values = p.list ? whole(p.count, left() + 1, "the length of a list") : 1;
-            if (face) {
-                faces_->InsertNextCell(static_cast<int>(values));
+    void read_element(const PlyElement& kind) {
+        Vec3 place = Vec3::Zero();
+        for (const PlyProperty& p : kind.properties) {
+            if (p.list) {
+                read_list(kind, p);
+                continue;
             }
-            for (std::size_t k = 0; k < values; ++k) {
-                if (face) {
-                    faces_->InsertCellPoint(static_cast<vtkIdType>(
-                        whole(p.type, static_cast<std::size_t>(points_->GetNumberOfPoints()), "a vertex of a face")));
-                    continue;
-                }
-                const double value = number(p.type);
-                if (!p.list && p.name.size() == 1 && p.name[0] >= 'x' && p.name[0] <= 'z') {
-                    place[p.name[0] - 'x'] = value;
-                }
+            const double value = number(p.type);
+            if (kind.name == "vertex" && p.axis) {
+                place[*p.axis] = value;
             }
         }
         if (kind.name == "vertex") {
-            points_->InsertNextPoint(place);
+            if (!place.allFinite()) {
+                problem(fmt::format("it is at {} {} {}", place.x(), place.y(), place.z()));
+            }
+            out_.mesh.vertex.push_back(place);
+        }
+    }
+    void read_list(const PlyElement& kind, const PlyProperty& p) {
+        const double length = number(p.count);
+        const auto values = whole(length, left() + words_.size() + 1);
+        if (!values) {
+            fail(fmt::format("the length of the list {} is {}, which there cannot be", p.name, length));
+        }
+        std::vector<std::uint32_t> vertices;
+        for (std::size_t k = 0; k < *values; ++k) {
+            const double value = number(p.type);
+            if (!p.vertices) {
+                continue;
+            }
+            if (kind.name == "tristrips" && value == -1.0) { // another strip follows
+                add_faces(kind, vertices);
+                vertices.clear();
+            } else if (const auto index = whole(value, header_.vertices)) {
+                vertices.push_back(static_cast<std::uint32_t>(*index));
+            } else {
+                problem(fmt::format("its vertex {} is {}, and there are {} from 0 on", k + 1, value, header_.vertices));
+            }
+        }
+        if (p.vertices) {
+            add_faces(kind, vertices);
+        }
+    }
+    void add_faces(const PlyElement& kind, const std::vector<std::uint32_t>& vertices) {
+        if (kind.name == "tristrips") {
+            add_strip(out_.mesh, vertices);
+        } else {
+            out_.mesh.add(vertices);
+        }
+        if (!header_.binary) {
+            out_.line.resize(out_.mesh.faces(), line_);
+        }
+    }
+
+    // What stands behind the last element.
+    void look_at_the_rest() {
+        if (!header_.binary && next_line()) {
+            problems_.push_back(fmt::format("line {}: {} follows the last element that the header announces", line_, shown(words_[0])));
+        } else if (header_.binary &&
+                   std::string_view(text_).find_first_not_of(std::string_view(" \t\r\n\0", 5), at_) != std::string::npos) {
+            out_.notes.push_back(fmt::format("{} bytes behind the last element that the header announces were passed over", left()));
         }
     }
 
     std::string file_;
     std::string text_;
+    PlyHeader header_;
+    const PlyElement* kind_ = nullptr;
+    std::size_t number_ = 0; // of the element, from 1
     std::size_t at_ = 0;
-    bool binary_ = false;
-    bool turned_ = false; // bytes are in the other order than this machine's
-    std::vector<ElementKind> kinds_;
-    vtkNew<vtkPoints> points_;
-    vtkNew<vtkCellArray> faces_;
+    std::size_t line_ = 0;
+    std::vector<std::string_view> words_; // of a text's line
+    std::size_t word_ = 0;
+    std::vector<std::string> problems_;
+    Faces out_;
 };
 
 } // namespace
 
-vtkSmartPointer<vtkPolyData> read_ply(const std::string& file) { return Ply(file).read(); }
+Faces read_ply(const std::string& file) { return PlyReader(file).read(); }
 
-} // namespace proveta
+} // namespace proveta::surface_files

@@ -26,7 +26,7 @@ struct Element {
     bool grouped = false;
     std::array<std::uint32_t, 8> node{}; // beyond the kind's own: no_node
     long long tag = 0;                   // its number in the file
-    std::size_t line = 0;
+    std::size_t place = 0;               // its line or byte
 };
 
 // What a file holds, before it is a mesh.
@@ -39,16 +39,11 @@ struct Content {
     std::vector<std::string> notes;
 };
 
-constexpr std::string_view space = " \t\r\n\v\f";
-
 /// The whole file. Throws std::runtime_error.
+std::string bytes_of(const std::string& file);
+
+/// The same as UTF-8 without a byte-order mark.
 std::string text_of(const std::string& file);
-
-/// What stands between the white space of a line.
-std::vector<std::string_view> words_of(std::string_view line);
-
-/// Text of a file as it can be shown in a message.
-std::string shown(std::string_view text);
 
 template <class Number> bool parse(std::string_view text, Number& value) {
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') {
@@ -58,7 +53,7 @@ template <class Number> bool parse(std::string_view text, Number& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-/// A Gmsh mesh, versions 2.2 and 4.1, ASCII. Throws std::runtime_error.
+/// A Gmsh mesh, versions 2.2 and 4.1, ASCII or binary. Throws std::runtime_error.
 Content read_gmsh(const std::string& file);
 
 /// A VTK unstructured grid, legacy or XML. Throws std::runtime_error.

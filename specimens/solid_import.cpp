@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <stdexcept>
 
 #include "core/input/text_file.hpp"
+#include "core/input/words.hpp"
 #include "specimens/memory.hpp"
 #include "specimens/solid_content.hpp"
 
@@ -26,28 +26,14 @@ int dimension_of(Kind kind) {
     constexpr std::array<int, 6> dimension{0, 1, 2, 2, 3, 3};
     return dimension[static_cast<std::size_t>(kind)];
 }
-std::string text_of(const std::string& file) {
+
+std::string bytes_of(const std::string& file) {
     require_file(file);
     return input::read_text(file, largest_file);
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-    std::vector<std::string_view> words;
-    for (std::size_t from = line.find_first_not_of(space); from < line.size();) {
-        const std::size_t to = std::min(line.find_first_of(space, from), line.size());
-        words.push_back(line.substr(from, to - from));
-        from = line.find_first_not_of(space, to);
-    }
-    return words;
-}
+std::string text_of(const std::string& file) { return input::as_utf8(bytes_of(file), file); }
 
-std::string shown(std::string_view text) {
-    std::string out;
-    for (const char c : text.substr(0, 40)) {
-        out += c >= ' ' && c <= '~' ? c : '?';
-    }
-    return '"' + out + (text.size() > 40 ? "...\"" : "\"");
-}
 } // namespace solid_files
 
 namespace {
@@ -104,7 +90,7 @@ void add_quadrilateral(SolidMesh& mesh, const std::array<std::uint32_t, 8>& q) {
 std::size_t add_elements(const std::vector<Element>& elements, SolidMesh& mesh) {
     const bool body = std::any_of(elements.begin(), elements.end(), [](const Element& e) { return dimension_of(e.kind) == 3; });
     std::size_t idle = 0;
-    for (const auto& [kind, grouped, n, tag, line] : elements) {
+    for (const auto& [kind, grouped, n, tag, place] : elements) {
         if (kind == Kind::tetrahedron) {
             mesh.tetrahedra.push_back({n[0], n[1], n[2], n[3]});
         } else if (kind == Kind::hexahedron) {
@@ -166,8 +152,7 @@ std::size_t nodes_in_one_place(const SolidMesh& mesh) {
 
 Content read(const std::string& file) {
     require_file(file);
-    std::string type = std::filesystem::path(file).extension().string();
-    std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string type = input::lower_case(std::filesystem::path(file).extension().string());
     if (type == ".msh") {
         return read_gmsh(file);
     }

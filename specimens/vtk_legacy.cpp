@@ -6,7 +6,7 @@ namespace proveta::vtk {
 
 namespace {
 
-using solid_files::shown;
+using input::shown;
 
 class LegacyReader {
   public:

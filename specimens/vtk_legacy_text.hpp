@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/input/words.hpp"
 #include "specimens/solid_content.hpp"
 
 namespace proveta::vtk {
@@ -54,8 +55,8 @@ class LegacyText {
 
     /// The next word; empty at the end of the file.
     std::string_view word() {
-        const std::size_t from = std::min(text_.find_first_not_of(solid_files::space, at_), text_.size());
-        at_ = std::min(text_.find_first_of(solid_files::space, from), text_.size());
+        const std::size_t from = std::min(text_.find_first_not_of(input::blanks, at_), text_.size());
+        at_ = std::min(text_.find_first_of(input::blanks, from), text_.size());
         return std::string_view(text_).substr(from, at_ - from);
     }
     /// Whether the next word is this one, in either case.
@@ -85,7 +86,7 @@ class LegacyText {
             const std::size_t components = count(name);
             const std::size_t tuples = count(name);
             if (components > 0 && tuples > text_.size() / components) {
-                fail(fmt::format("{}: more values than the file can hold", solid_files::shown(name)));
+                fail(fmt::format("{}: more values than the file can hold", input::shown(name)));
             }
             const std::size_t values = components * tuples;
             if (begins_with("STRING")) {
@@ -107,13 +108,13 @@ class LegacyText {
     std::size_t count(const std::string& section, std::size_t values = 1) {
         const std::string_view found = word();
         if (found.empty() || found.find_first_not_of("0123456789") != std::string_view::npos) {
-            fail(fmt::format("{}: a number of points, cells or values is expected and {} was found", section, solid_files::shown(found)));
+            fail(fmt::format("{}: a number of points, cells or values is expected and {} was found", section, input::shown(found)));
         }
         std::size_t n = 0;
         const std::size_t left = text_.size() - at_;
         if (!solid_files::parse(found, n) || n > left / values) {
-            fail(fmt::format("{}: {} are announced, which the rest of the file, {} bytes, cannot hold", section, solid_files::shown(found),
-                             left));
+            fail(
+                fmt::format("{}: {} are announced, which the rest of the file, {} bytes, cannot hold", section, input::shown(found), left));
         }
         return n;
     }
@@ -121,8 +122,8 @@ class LegacyText {
         const std::string_view name = word();
         const auto found = number_types.find(in_capitals(name));
         if (found == number_types.end() || (found->second.kind == NumberType::real && !may_be_real)) {
-            fail(fmt::format("{}: {} are expected and the type is {}", what, may_be_real ? "numbers" : "whole numbers",
-                             solid_files::shown(name)));
+            fail(
+                fmt::format("{}: {} are expected and the type is {}", what, may_be_real ? "numbers" : "whole numbers", input::shown(name)));
         }
         return found->second;
     }
@@ -141,7 +142,7 @@ class LegacyText {
                 value = big_endian<Number>(type);
             } else if (const std::string_view found = word(); !solid_files::parse(found, value)) {
                 fail(fmt::format("{}: {} numbers are expected and number {} is {}", section, n, k + 1,
-                                 found.empty() ? "missing: the file ends" : solid_files::shown(found)));
+                                 found.empty() ? "missing: the file ends" : input::shown(found)));
             }
             use(value);
         }

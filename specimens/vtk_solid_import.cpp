@@ -80,6 +80,11 @@ Content read_vtk(const std::string& file, bool legacy) {
     if (grid.type.size() != grid.cells.size()) {
         throw std::runtime_error(fmt::format("{}: {} cells and {} types of cells", file, grid.cells.size(), grid.type.size()));
     }
+    for (std::size_t k = 0; k < grid.point.size(); ++k) {
+        if (const Vec3& x = grid.point[k]; !x.allFinite()) {
+            throw std::runtime_error(fmt::format("{}: point {} is at {} {} {}", file, k + 1, x.x(), x.y(), x.z()));
+        }
+    }
     Content out;
     out.node = std::move(grid.point);
     for (std::size_t k = 0; k < grid.cells.size(); ++k) {

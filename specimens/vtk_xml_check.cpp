@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/input/words.hpp"
 #include "specimens/solid_content.hpp"
 #include "specimens/vtk_xml_tags.hpp"
 
@@ -16,9 +17,9 @@ namespace proveta::vtk {
 
 namespace {
 
+using input::blanks;
+using input::shown;
 using solid_files::parse;
-using solid_files::shown;
-using solid_files::space;
 
 constexpr double densest = 1100.0; // bytes that a compressor makes of one, at most
 
@@ -64,7 +65,7 @@ class XmlCheck {
                 }
                 check_bytes({offset < all_.size() - data.at ? data.at + offset : all_.size(), data.raw}, word_of(tag), ends);
             } else if (format == "binary") {
-                check_bytes({all_.find_first_not_of(space, tag.data), false}, word_of(tag), ends);
+                check_bytes({all_.find_first_not_of(blanks, tag.data), false}, word_of(tag), ends);
             } else if (!format.empty() && format != "ascii") {
                 fail(fmt::format("the format {} is none of ascii, binary and appended", shown(format)));
             } else if (ends) {
@@ -98,7 +99,7 @@ class XmlCheck {
             return {all_.size(), false};
         }
         const auto encoding = last.value("encoding");
-        const auto first = std::min(all_.find_first_not_of(space, last.data), all_.size());
+        const auto first = std::min(all_.find_first_not_of(blanks, last.data), all_.size());
         if ((encoding != "raw" && encoding != "base64") || all_.substr(first, 1) != "_") {
             fail("appended data are expected to be raw or base64, and to begin with an underscore");
         }
@@ -182,7 +183,7 @@ class XmlCheck {
     }
     // The numbers that stand as text up to the next tag: any may be the last that is read.
     void check_numbers(std::size_t from) const {
-        for (const auto word : solid_files::words_of(all_.substr(from, std::min(all_.find('<', from), all_.size()) - from))) {
+        for (const auto word : input::words_of(all_.substr(from, std::min(all_.find('<', from), all_.size()) - from))) {
             double value = 0.0; // which may be followed by anything, where VTK's reader stops
             if (std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc()) {
                 check_end(value);

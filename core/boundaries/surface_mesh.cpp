@@ -175,10 +175,11 @@ SurfaceState look_at(const SurfaceMesh& mesh) {
     return state;
 }
 
-SurfaceMesh welded(const SurfaceMesh& mesh, double tolerance) {
+WeldedSurface welded(const SurfaceMesh& mesh, double tolerance) {
     const auto box = box_of(mesh);
     const double reach = box.isEmpty() ? 0.0 : tolerance * box.diagonal().norm();
-    SurfaceMesh out;
+    WeldedSurface welded;
+    SurfaceMesh& out = welded.mesh;
     std::vector<std::uint32_t> target(mesh.vertex.size());
     using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
     const auto hash = [](const Cell& c) { return static_cast<std::size_t>(c.x() * 73856093 ^ c.y() * 19349663 ^ c.z() * 83492791); };
@@ -213,18 +214,17 @@ SurfaceMesh welded(const SurfaceMesh& mesh, double tolerance) {
                 face.push_back(v);
             }
         }
-        if (face.size() < 3) {
-            continue;
-        }
         auto sorted = face;
         std::sort(sorted.begin(), sorted.end());
         out.add(face);
-        if (degenerate(out, out.faces() - 1) || !known.insert(sorted).second) {
+        const bool flat = degenerate(out, out.faces() - 1);
+        if (flat || !known.insert(sorted).second) {
+            (flat ? welded.flat : welded.repeated).push_back(f);
             out.first.pop_back();
             out.corner.resize(out.first.back());
         }
     }
-    return out;
+    return welded;
 }
 
 } // namespace proveta

@@ -48,8 +48,15 @@ struct SurfaceState {
 };
 SurfaceState look_at(const SurfaceMesh& mesh);
 
+/// A surface and which faces it was made without, by their numbers from 0.
+struct WeldedSurface {
+    SurfaceMesh mesh;
+    std::vector<std::size_t> flat;     ///< without area
+    std::vector<std::size_t> repeated; ///< of the same corners as one before, whichever way round
+};
+
 /// The same surface with vertices nearer than `tolerance` times its size made one, and without the faces that have no area then or are
 /// there twice.
-SurfaceMesh welded(const SurfaceMesh& mesh, double tolerance = 1e-7);
+WeldedSurface welded(const SurfaceMesh& mesh, double tolerance = 1e-7);
 
 } // namespace proveta

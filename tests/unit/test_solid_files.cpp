@@ -190,9 +190,11 @@ TEST_CASE("bad Gmsh files are refused with file, line and reason") {
     says(message((folder.path() / "nowhere.msh").string()), "no such file");
     says(message(folder.file("a.step", "x")), ".msh");
     says(refusal("\n"), "$MeshFormat is expected");
-    says(refusal("$NOD\n1\n"), "\"$NOD\"");
+    says(refusal("$NOD\n1\n"), "version 1.0 of Gmsh's format, which begins with \"$NOD\"");
     says(two("2.2 0 8", "4.0 0 8"), "bad.msh:2: version \"4.0\"");
-    says(two("2.2 0 8", "2.2 1 8"), "binary");
+    says(two("2.2 0 8", "4 0 8"), "version \"4\" of Gmsh's format; versions 2.2 and 4.1 are read (in Gmsh: Mesh.MshFileVersion = 4.1)");
+    says(two("2.2 0 8", "2.2 2 8"), "the file's type is 2");
+    says(two("2.2 0 8", "2.2 1 8"), "the number 1 in four bytes is expected");
     says(refusal(std::string("\x7f\x00\xff\n\x01", 5)), "$MeshFormat is expected and \"???\"");
     says(two("$Nodes\n6", "$Nodes\n4000000000000"), "bad.msh:10: the number of nodes is 4000000000000");
     says(two("$Nodes\n6", "$Nodes\n-6"), "-6");
@@ -209,6 +211,11 @@ TEST_CASE("bad Gmsh files are refused with file, line and reason") {
     says(two("10 20 30 40", "10 20 30"), "4 nodes");
     says(two("5 4 2 7 1 20", "4 4 2 7 1 20"), "a second element 4");
     says(two("4 4 2 7", "4 11 2 7"), "second-order tetrahedron");
+    says(two("4 4 2 7", "4 11 2 7"), "Mesh.ElementOrder = 1");
+    says(two("4 4 2 7 1", "4 4 4 7 1 1 2"), "element 4 of a mesh in partitions");
+    says(refusal(msh4 + "$PartitionedEntities\n3\n"), "a mesh in partitions ($PartitionedEntities)");
+    says(refusal("$Comments\n" + msh2), "the file ends where $EndComments is expected");
+    says(refusal(msh2.substr(msh2.find("$Nodes"))), "bad.msh:1: $Nodes before $MeshFormat");
     says(two("4 4 2 7", "4 6 2 7"), "prism");
     says(two("4 4 2 7", "4 7 2 7"), "pyramid");
     says(two("4 4 2 7", "4 777 2 7"), "unknown kind (Gmsh's type 777)");
@@ -227,7 +234,8 @@ TEST_CASE("bad Gmsh files are refused with file, line and reason") {
     says(refusal("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + msh2.substr(msh2.find("$Elements"))), "$Elements before $Nodes");
 
     says(four("2 8 1 8", "2 9 1 8"), "8 nodes where 9 are expected");
-    says(four("3 1 5 1", "3 1 5 2"), "an element of 8 nodes");
+    says(four("3 1 5 1", "3 1 5 2"), "an element's tag is expected and \"$EndElements\"");
+    says(four("1 5 6 7 8", "1 5 6 7"), "an element of 4 nodes");
     says(four("3 1 5 1", "2 1 5 1"), "elements of dimension 3 in an entity of dimension 2");
     says(four("3 1 5 1", "3 1 5 9999999999"), "9999999999");
     says(four("2 2 1 2", "2 3 1 2"), "2 elements where 3 are expected");
@@ -250,6 +258,28 @@ TEST_CASE("bad Gmsh files are refused with file, line and reason") {
             CHECK_NOTHROW(refusal(other)); // message() lets nothing but std::runtime_error by
         }
     }
+}
+
+TEST_CASE("Gmsh's sections may come with comments anywhere, with parametric nodes, and with a byte-order mark") {
+    const TemporaryFolder folder;
+    const auto same = [&](const std::string& text) {
+        const auto in = import_solid(folder.file("a.msh", text));
+        CHECK(in.mesh.tetrahedra.size() == 2);
+        CHECK(in.mesh.groups.size() == 3);
+        CHECK(volume_of(in.mesh) == Approx(3.5 / 6.0));
+    };
+    const std::string comment = "$Comments\nmade by $hand\n$EndComment\n\n$EndComments\n";
+    same(comment + msh2);
+    same("\n" + comment + replaced(msh2, "$Nodes", comment + "$Nodes") + comment);
+    same("\xEF\xBB\xBF" + msh2);
+    std::string parametric = replaced(replaced(msh2, "$Nodes", "$ParametricNodes"), "$EndNodes", "$EndParametricNodes");
+    same(parametric);
+    parametric = replaced(replaced(parametric, "20 1 0 0", "20 1 0 0 1 3 0.5"), "30 0 1 0", "30 0 1 0 2 1 0.5 0.25");
+    same(replaced(parametric, "40 0 0 1", "40 0 0 1 3 1"));
+    says(message(folder.file("b.msh", replaced(parametric, "40 0 0 1", "40 0 0 1 3 1 0"))), "1 numbers too many");
+    std::string returns = msh2;
+    std::replace(returns.begin(), returns.end(), '\n', '\r');
+    same(returns);
 }
 
 TEST_CASE("a scale must be positive") {
