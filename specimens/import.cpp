@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "core/files/whole_file.hpp"
+#include "core/input/words.hpp"
 #include "specimens/sphere_file.hpp"
 
 namespace proveta {
@@ -32,7 +33,7 @@ Vec3 turned(const Vec3& p, char axis) {
 char name_of(int k, char axis) { return static_cast<char>('x' + (k + (axis == 'x' ? 1 : axis == 'y' ? 2 : 0)) % 3); }
 
 ReadSpheres read(const std::string& file, const std::string& columns) {
-    const std::string ending = std::filesystem::path(file).extension().string();
+    const std::string ending = input::lower_case(std::filesystem::path(file).extension().string());
     if (ending == ".mdpa" || ending == ".msh") {
         if (!columns.empty()) {
             throw std::runtime_error(file + ": --columns is for tables; a mesh says itself what its numbers are");
@@ -56,6 +57,9 @@ struct Extent {
 Extent extent_of(const std::vector<ReadSphere>& spheres) {
     Extent out;
     std::array<std::vector<double>, 3> along;
+    for (auto& coordinates : along) {
+        coordinates.reserve(spheres.size());
+    }
     for (const auto& s : spheres) {
         for (int c = 0; c < 3; ++c) {
             along[static_cast<std::size_t>(c)].push_back(s.centre[c]);
@@ -115,7 +119,8 @@ double surface_of(std::vector<double> ends, double grain) {
 }
 
 // Two spheres in one place are one that was written twice.
-void refuse_coincident(const std::string& file, const std::vector<ReadSphere>& spheres) {
+void refuse_coincident(const std::string& file, const ReadSpheres& found) {
+    const auto& spheres = found.spheres;
     std::vector<std::size_t> order(spheres.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](std::size_t k) {
@@ -126,13 +131,11 @@ void refuse_coincident(const std::string& file, const std::vector<ReadSphere>& s
     std::vector<std::string> pairs;
     for (std::size_t k = 1; k < order.size(); ++k) {
         if (key(order[k]) == key(order[k - 1])) {
-            pairs.push_back(spheres[order[k - 1]].where + " and " + spheres[order[k]].where);
+            pairs.push_back(found.where(order[k - 1]) + " and " + found.where(order[k]));
         }
     }
     if (!pairs.empty()) {
-        throw std::runtime_error(fmt::format("{}: {} spheres lie where another does: {}{}", file, pairs.size(),
-                                             fmt::join(pairs.begin(), pairs.begin() + std::min<std::ptrdiff_t>(5, std::ssize(pairs)), ", "),
-                                             pairs.size() > 5 ? ", ..." : ""));
+        throw std::runtime_error(fmt::format("{}: {} spheres lie where another does: {}", file, pairs.size(), input::first_few(pairs)));
     }
 }
 
@@ -173,13 +176,12 @@ Imported import_specimen(const std::string& file, const ImportOptions& o) {
         grain += s.radius / static_cast<double>(spheres.size());
         matter += 4.0 / 3.0 * std::numbers::pi * s.radius * s.radius * s.radius;
     }
-    refuse_coincident(file, spheres);
+    refuse_coincident(file, found);
     const Extent extent = extent_of(spheres);
     const Vec3 sides = extent.high - extent.low;
-    const auto& outermost = spheres[extent.outermost];
     if (sides.maxCoeff() > 2.0 * extent.rest && spheres.size() > 10) {
-        fail(fmt::format("the sphere of {} lies far from all others: without it they are {:.4g} m long, with it {:.4g} m", outermost.where,
-                         extent.rest, sides.maxCoeff()));
+        fail(fmt::format("the sphere of {} lies far from all others: without it they are {:.4g} m long, with it {:.4g} m",
+                         found.where(extent.outermost), extent.rest, sides.maxCoeff()));
     }
     if (sides.maxCoeff() > widest) {
         fail(fmt::format("spheres over {:.4g} m, {:.4g} m at most; a file in mm needs --scale 0.001", sides.maxCoeff(), widest));

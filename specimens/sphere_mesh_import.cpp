@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,10 +8,10 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "core/input/text_file.hpp"
+#include "core/input/words.hpp"
 #include "specimens/memory.hpp"
 #include "specimens/sphere_file.hpp"
 
@@ -20,39 +19,45 @@ namespace proveta {
 
 namespace {
 
+using input::lower_case;
+using input::shown;
+
 // Splits a line at commas, semicolons and white space.
-std::vector<std::string> fields(const std::string& line) {
+std::vector<std::string> fields(std::string_view line) {
     std::vector<std::string> out;
     std::size_t at = 0;
     while (at < line.size()) {
-        const auto end = std::min(line.find_first_of(", ;\t\r", at), line.size());
+        const auto end = std::min(line.find_first_of(", ;\t", at), line.size());
         if (end > at) {
-            out.push_back(line.substr(at, end - at));
+            out.emplace_back(line.substr(at, end - at));
         }
         at = end + 1;
     }
     return out;
 }
 
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 // A text file read line by line, which knows where it is.
 class Lines {
   public:
-    Lines(const std::string& file, std::string text) : file_(file), in_(input::as_utf8(std::move(text), file)) {}
-    bool next(std::string& line) {
-        ++number_;
-        return static_cast<bool>(std::getline(in_, line));
+    Lines(const std::string& file, std::string text)
+        : file_(file), text_(input::as_utf8(std::move(text), file)), lines_(input::lines_of(text_)) {}
+    Lines(const Lines&) = delete;
+    Lines& operator=(const Lines&) = delete;
+
+    bool next(std::string_view& line) {
+        if (number_ == lines_.size()) {
+            return false;
+        }
+        line = lines_[number_++];
+        return true;
     }
+    [[nodiscard]] std::size_t number() const { return number_; }
     [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(fmt::format("{}:{}: {}", file_, number_, what)); }
     double real(const std::string& text) const {
         double x = 0.0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
         if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(x)) {
-            fail("\"" + text.substr(0, 40) + "\" is not a finite number");
+            fail(shown(text) + " is not a finite number");
         }
         return x;
     }
@@ -61,7 +66,7 @@ class Lines {
     int whole(const std::string& text) const {
         const double x = real(text);
         if (x != std::floor(x) || std::fabs(x) > std::numeric_limits<int>::max()) {
-            fail("\"" + text.substr(0, 40) + "\" is no number of a node or a group");
+            fail(shown(text) + " is no number of a node or a group");
         }
         return static_cast<int>(x);
     }
@@ -76,37 +81,58 @@ class Lines {
 
   private:
     std::string file_;
-    std::istringstream in_;
-    int number_ = 0;
+    std::string text_;
+    std::vector<std::string_view> lines_;
+    std::size_t number_ = 0; // of the line that was taken last
 };
 
 using Nodes = std::map<int, ReadSphere>;
 
-ReadSphere& declared(Nodes& nodes, const std::string& id, const Lines& in) {
-    const auto at = nodes.find(in.whole(id));
-    if (at == nodes.end()) {
-        in.fail("node " + id + " was not declared");
+// The same may be said twice of a node. What contradicts what was said before; empty where nothing does.
+std::string put_node(Nodes& nodes, int id, const Vec3& centre) {
+    const auto [node, is_new] = nodes.try_emplace(id);
+    if (!is_new && node->second.centre != centre) {
+        return fmt::format("a second node {} in another place", id);
     }
-    return at->second;
+    node->second.centre = centre;
+    return "";
+}
+
+std::string put_radius(Nodes& nodes, int id, double radius) {
+    const auto node = nodes.find(id);
+    if (node == nodes.end()) {
+        return fmt::format("node {} was not declared", id);
+    }
+    double& r = node->second.radius;
+    if (r > 0.0 && r != radius) {
+        return fmt::format("a second radius of node {}, {:.6g} after {:.6g}", id, radius, r);
+    }
+    r = radius;
+    return "";
+}
+
+void refuse(const Lines& in, const std::string& problem) {
+    if (!problem.empty()) {
+        in.fail(problem);
+    }
 }
 
 // In the order of the nodes' numbers. Nodes in `others` are not spheres'.
 ReadSpheres in_order(const std::string& file, const Nodes& nodes, const std::set<int>& others) {
     ReadSpheres out;
-    std::vector<int> without;
+    out.numbered = "node";
+    std::vector<std::string> without;
     for (const auto& [id, sphere] : nodes) {
         if (sphere.radius > 0.0) {
             out.spheres.push_back(sphere);
-            out.spheres.back().where = fmt::format("node {}", id);
+            out.spheres.back().number = id;
         } else if (others.count(id) == 0) {
-            without.push_back(id);
+            without.push_back(fmt::format("{}", id));
         }
     }
     if (!without.empty()) {
-        const std::size_t shown = std::min<std::size_t>(without.size(), 5);
-        throw std::runtime_error(fmt::format("{}: {} of {} nodes have no radius: {}{}", file, without.size(), nodes.size(),
-                                             fmt::join(without.begin(), without.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                                             shown < without.size() ? ", ..." : ""));
+        throw std::runtime_error(
+            fmt::format("{}: {} of {} nodes have no radius: {}", file, without.size(), nodes.size(), input::first_few(without)));
     }
     return out;
 }
@@ -115,7 +141,8 @@ ReadSpheres read_gid_text(const std::string& file, std::string text) {
     Lines in(file, std::move(text));
     Nodes nodes;
     std::set<int> others;
-    std::string line;
+    std::vector<std::string> passed_over;
+    std::string_view line;
     std::string block;
     bool spheres = false;
     while (in.next(line)) {
@@ -124,18 +151,23 @@ ReadSpheres read_gid_text(const std::string& file, std::string text) {
             continue;
         }
         const std::string first = lower_case(f[0]);
-        if (first == "mesh") {
+        if (first == "mesh" || first == "coordinates" || first == "elements") {
+            if (!block.empty()) {
+                in.fail(fmt::format("{} before \"end {}\"", shown(f[0]), block));
+            }
             const std::string words = lower_case(line);
-            spheres = words.find("sphere") != std::string::npos || words.find("circle") != std::string::npos;
-        } else if (first == "coordinates" || first == "elements") {
-            block = first;
+            spheres = first == "mesh" ? words.find("sphere") != std::string::npos || words.find("circle") != std::string::npos : spheres;
+            block = first == "mesh" ? "" : first;
         } else if (first == "end") {
+            if (block.empty() || f.size() < 2 || lower_case(f[1]) != block) {
+                in.fail(shown(line) + " closes no block that is open");
+            }
             block.clear();
         } else if (block == "coordinates") {
             if (f.size() < 3) {
                 in.fail("a node needs its number and coordinates");
             }
-            nodes[in.whole(f[0])].centre = {in.real(f[1]), in.real(f[2]), f.size() > 3 ? in.real(f[3]) : 0.0};
+            refuse(in, put_node(nodes, in.whole(f[0]), {in.real(f[1]), in.real(f[2]), f.size() > 3 ? in.real(f[3]) : 0.0}));
         } else if (block == "elements" && !spheres) {
             for (std::size_t k = 1; k < f.size(); ++k) {
                 others.insert(in.whole(f[k]));
@@ -144,13 +176,20 @@ ReadSpheres read_gid_text(const std::string& file, std::string text) {
             if (f.size() < 3) {
                 in.fail("a sphere element needs number, node and radius");
             }
-            declared(nodes, f[1], in).radius = in.radius(f[2]);
+            refuse(in, put_radius(nodes, in.whole(f[1]), in.radius(f[2])));
+        } else {
+            passed_over.push_back(fmt::format("{}", in.number()));
         }
     }
     if (!block.empty()) {
         in.fail("the file ends before \"end " + block + "\": it is cut short");
     }
-    return in_order(file, nodes, others);
+    ReadSpheres out = in_order(file, nodes, others);
+    if (!passed_over.empty()) {
+        out.warnings.push_back(fmt::format("{} lines outside Coordinates and Elements were passed over: {}", passed_over.size(),
+                                           input::first_few(passed_over)));
+    }
+    return out;
 }
 
 // Header: five int32: 3 (dimensions), 9 (spheres), 1 (node an element), nodes, elements. Nodes of 56 bytes: number at +0, x, y, z as
@@ -173,38 +212,54 @@ bool is_gid_binary(const std::string& bytes) {
 
 ReadSpheres read_gid_binary(const std::string& file, const std::string& bytes) {
     const auto fail = [&](const std::string& what) { throw std::runtime_error(file + ": " + what); };
-    const auto announced = [&](std::size_t at) { return static_cast<std::size_t>(std::max(value_at<std::int32_t>(bytes, at), 0)); };
+    const auto announced = [&](std::size_t at) {
+        const auto number = value_at<std::int32_t>(bytes, at);
+        if (number < 0) {
+            fail(fmt::format("{} nodes or spheres are announced", number));
+        }
+        return static_cast<std::size_t>(number);
+    };
     const std::size_t count = announced(12);
     const std::size_t elements = announced(16);
     const std::size_t first = gid_header + count * gid_node + 4;
-    if (bytes.size() < first + elements * gid_element) {
+    const std::size_t end = first + elements * gid_element;
+    if (bytes.size() < end) {
         fail(fmt::format("{} nodes and {} spheres are announced, which take {} bytes, and the file has {}: it is cut short", count,
-                         elements, first + elements * gid_element, bytes.size()));
+                         elements, end, bytes.size()));
     }
+    const auto refuse_if = [&](std::size_t sphere, const std::string& problem) {
+        if (!problem.empty()) {
+            fail(fmt::format("sphere {}: {}", value_at<std::int32_t>(bytes, sphere), problem));
+        }
+    };
     Nodes nodes;
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t at = gid_header + k * gid_node;
-        auto& sphere = nodes[value_at<std::int32_t>(bytes, at)];
+        const auto id = value_at<std::int32_t>(bytes, at);
+        Vec3 centre;
         for (int c = 0; c < 3; ++c) {
-            sphere.centre[c] = value_at<double>(bytes, at + 32 + 8 * static_cast<std::size_t>(c));
+            centre[c] = value_at<double>(bytes, at + 32 + 8 * static_cast<std::size_t>(c));
         }
-        if (!sphere.centre.allFinite()) {
-            fail(fmt::format("node {} has a coordinate that is not finite", value_at<std::int32_t>(bytes, at)));
+        if (!centre.allFinite()) {
+            fail(fmt::format("node {} has a coordinate that is not finite", id));
+        }
+        if (const std::string problem = put_node(nodes, id, centre); !problem.empty()) {
+            fail(problem);
         }
     }
     for (std::size_t k = 0; k < elements; ++k) {
         const std::size_t at = first + k * gid_element;
-        const auto id = value_at<std::int32_t>(bytes, at + 32);
         const double radius = value_at<double>(bytes, at + 36);
-        const auto node = nodes.find(id);
-        if (node == nodes.end() || !(radius > 0.0) || !std::isfinite(radius)) {
-            fail(fmt::format("sphere {}: {}", value_at<std::int32_t>(bytes, at),
-                             node == nodes.end() ? fmt::format("node {} was not declared", id)
-                                                 : fmt::format("radius {:.6g} is not positive", radius)));
+        if (!(radius > 0.0) || !std::isfinite(radius)) {
+            refuse_if(at, fmt::format("radius {:.6g} is not positive", radius));
         }
-        node->second.radius = radius;
+        refuse_if(at, put_radius(nodes, value_at<std::int32_t>(bytes, at + 32), radius));
     }
-    return in_order(file, nodes, {});
+    ReadSpheres out = in_order(file, nodes, {});
+    if (bytes.find_first_not_of('\0', end) != std::string::npos) {
+        out.warnings.push_back(fmt::format("{} bytes behind the last sphere were passed over", bytes.size() - end));
+    }
+    return out;
 }
 
 } // namespace
@@ -213,40 +268,44 @@ ReadSpheres read_mdpa(const std::string& file) {
     require_file(file);
     Lines in(file, input::read_text(file, largest_file));
     Nodes nodes;
-    std::string line;
+    std::string_view line;
     std::vector<std::string> open; // blocks that have begun, each within the one before
+    const auto name = [&] { return open.back().substr(0, open.back().find(' ')); };
     while (in.next(line)) {
         const auto f = fields(line.substr(0, line.find("//")));
         if (f.empty()) {
             continue;
         }
-        const std::string block = open.empty() ? "" : open.back();
-        if (f[0] == "Begin" && f.size() > 1) {
-            open.push_back(f[1] + (f[1] == "NodalData" && f.size() > 2 ? " " + f[2] : ""));
-        } else if (f[0] == "End") {
-            if (open.empty() || f.size() < 2 || open.back().substr(0, open.back().find(' ')) != f[1]) {
-                in.fail("\"" + line + "\" closes no block that is open");
+        const std::string first = lower_case(f[0]);
+        const std::string block = open.empty() ? "" : lower_case(open.back());
+        if (first == "begin" && f.size() > 1) {
+            open.push_back(f[1] + (lower_case(f[1]) == "nodaldata" && f.size() > 2 ? " " + f[2] : ""));
+        } else if (first == "end") {
+            if (open.empty() || f.size() < 2 || lower_case(name()) != lower_case(f[1])) {
+                in.fail(shown(line) + " closes no block that is open");
             }
             open.pop_back();
-        } else if (block == "Nodes") {
-            if (f.size() < 4) {
+        } else if (block == "nodes") {
+            if (f.size() != 4) {
                 in.fail("a node needs its number and three coordinates");
             }
-            nodes[in.whole(f[0])].centre = {in.real(f[1]), in.real(f[2]), in.real(f[3])};
-        } else if (block == "NodalData RADIUS" || block == "NodalData COHESIVE_GROUP") {
+            refuse(in, put_node(nodes, in.whole(f[0]), {in.real(f[1]), in.real(f[2]), in.real(f[3])}));
+        } else if (block == "nodaldata radius" || block == "nodaldata cohesive_group") {
             if (f.size() < 3) {
                 in.fail("a node's number, whether it is fixed, and a value are expected");
             }
-            ReadSphere& sphere = declared(nodes, f[0], in);
-            if (block == "NodalData RADIUS") {
-                sphere.radius = in.radius(f.back());
+            const int id = in.whole(f[0]);
+            if (block == "nodaldata radius") {
+                refuse(in, put_radius(nodes, id, in.radius(f.back())));
+            } else if (const auto node = nodes.find(id); node != nodes.end()) {
+                node->second.group = in.whole(f.back());
             } else {
-                sphere.group = in.whole(f.back());
+                in.fail(fmt::format("node {} was not declared", id));
             }
         }
     }
     if (!open.empty()) {
-        in.fail("the file ends before \"End " + open.back().substr(0, open.back().find(' ')) + "\": it is cut short");
+        in.fail("the file ends before \"End " + name() + "\": it is cut short");
     }
     return in_order(file, nodes, {});
 }
@@ -254,6 +313,9 @@ ReadSpheres read_mdpa(const std::string& file) {
 ReadSpheres read_gid(const std::string& file) {
     require_file(file);
     std::string bytes = input::read_text(file, largest_file);
+    if (bytes.starts_with('$')) {
+        throw std::runtime_error(file + ": a mesh of Gmsh, which has no spheres; GiD's begin with MESH");
+    }
     return is_gid_binary(bytes) ? read_gid_binary(file, bytes) : read_gid_text(file, std::move(bytes));
 }
 

@@ -170,7 +170,7 @@ ReadSpheres read_sphere_table(const std::string& file, const std::string& column
         if (group[k] != std::floor(group[k]) || std::fabs(group[k]) > std::numeric_limits<int>::max()) {
             fail(fmt::format("\"{}\" is no number of a group", table.cell(k, found.group->index)));
         }
-        out.spheres.push_back({{x[k], y[k], z[k]}, half * r[k], static_cast<int>(group[k]), fmt::format("line {}", table.line(k))});
+        out.spheres.push_back({{x[k], y[k], z[k]}, half * r[k], static_cast<int>(group[k]), static_cast<long long>(table.line(k))});
     }
     return out;
 }
