@@ -1,4 +1,5 @@
 // Meshes of deformable bodies and of spheres.
+#include "core/input/words.hpp"
 #include "specimens/import.hpp"
 #include "specimens/solid_import.hpp"
 #include "tests/fuzz/scratch.hpp"
@@ -15,15 +16,16 @@ void read_mesh_file(std::string_view bytes) {
         const std::string file = scratch_file(name, bytes);
         may_refuse([&] { (void)import_solid(file); });
     };
-    if (bytes.starts_with("$")) {
+    const std::string begin = input::lower_case(input::trimmed(bytes, "\xEF\xBB\xBF \t\r\n").substr(0, 5));
+    if (begin.starts_with("$")) {
         solid("mesh.msh");
     } else if (bytes.starts_with("# vtk")) {
         solid("mesh.vtk");
     } else if (bytes.starts_with("<")) {
         solid("mesh.vtu");
-    } else if (bytes.starts_with("Begin")) {
+    } else if (begin == "begin") {
         spheres("mesh.mdpa");
-    } else if (bytes.starts_with("MESH")) {
+    } else if (begin.starts_with("mesh") || bytes.starts_with(std::string_view("\3\0\0\0\11", 5))) { // GiD's, as text or as bytes
         spheres("mesh.msh");
     } else {
         spheres("mesh.csv");

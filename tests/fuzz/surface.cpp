@@ -1,4 +1,5 @@
 // Surfaces of faces.
+#include "core/input/words.hpp"
 #include "specimens/surface_import.hpp"
 #include "tests/fuzz/scratch.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -6,10 +7,11 @@
 namespace proveta::fuzz {
 
 void read_surface_file(std::string_view bytes) {
-    const char* name = bytes.starts_with("ply")                                                           ? "surface.ply"
-                       : bytes.starts_with("# vtk")                                                       ? "surface.vtk"
-                       : bytes.starts_with("<")                                                           ? "surface.vtp"
-                       : bytes.starts_with("v ") || bytes.starts_with("# obj") || bytes.starts_with("o ") ? "surface.obj"
+    const std::string begin = input::lower_case(input::trimmed(bytes, "\xEF\xBB\xBF \t\r\n").substr(0, 5));
+    const char* name = begin.starts_with("ply")                                                           ? "surface.ply"
+                       : begin.starts_with("# vtk")                                                       ? "surface.vtk"
+                       : begin.starts_with("<")                                                           ? "surface.vtp"
+                       : begin.starts_with("v ") || begin.starts_with("# obj") || begin.starts_with("o ") ? "surface.obj"
                                                                                                           : "surface.stl";
     const std::string file = scratch_file(name, bytes);
     may_refuse([&] { (void)import_surface(file, 1e-3); });

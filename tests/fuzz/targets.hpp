@@ -10,7 +10,7 @@ namespace proveta::fuzz {
 /// std::runtime_error that says why. Whatever else happens is a defect of the reader. Nothing is left behind.
 void read_deck_file(std::string_view bytes);    ///< decks, series, sweeps, calibrations, scenes: by the keys that are there
 void read_card_file(std::string_view bytes);    ///< material cards
-void read_csv_file(std::string_view bytes);     ///< tables of numbers, measured curves
+void read_csv_file(std::string_view bytes);     ///< tables of numbers in any dialect, measured curves, targets' curves
 void read_mesh_file(std::string_view bytes);    ///< meshes of deformable bodies and of spheres: by how the file begins
 void read_surface_file(std::string_view bytes); ///< surfaces: by how the file begins
 void read_hdf5_file(std::string_view bytes);    ///< specimens and checkpoints
