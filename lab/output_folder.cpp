@@ -86,7 +86,7 @@ input::Json own_manifest(const fs::path& folder) {
 
 // A ledger of trials; one without any is ours where there is nothing but it and what trials need.
 bool holds_ledger(const fs::path& folder) {
-    const std::string start = "{\"jobs\":[";
+    const std::string start = "{\"trial\":";
     std::string found(start.size(), '\0');
     std::ifstream in(folder / "ledger.jsonl");
     if (!in || in.read(found.data(), static_cast<std::streamsize>(start.size()))) {

@@ -11,14 +11,57 @@
 
 #include "core/hash.hpp"
 #include "core/parallel/instruction_set.hpp"
+#include "lab/revision.hpp"
 
 namespace proveta {
 
 std::string version() { return PROVETA_VERSION; }
 
 std::string version_text() {
-    return fmt::format("proveta {}\ncompiler {}\nbuild {}\nvector kernel {}\nthreads {}", version(), PROVETA_COMPILER, PROVETA_BUILD,
-                       instruction_set_name(), omp_get_max_threads());
+    const int threads = omp_get_max_threads();
+    return fmt::format("proveta {} ({}, physics {}, {}, {}, {}, {} {})", version(), git_revision(), physics_revision(), PROVETA_COMPILER,
+                       PROVETA_BUILD, instruction_set_name(), threads, threads == 1 ? "thread" : "threads");
+}
+
+input::Json program_facts() {
+    return {{"version", version()},         {"revision", git_revision()}, {"physics", physics_revision()},
+            {"compiler", PROVETA_COMPILER}, {"build", PROVETA_BUILD},     {"vector_kernel", instruction_set_name()}};
+}
+
+std::vector<std::string> physics_of(const input::Json& manifest) {
+    std::vector<std::string> out;
+    const auto add = [&](const input::Json& program) {
+        if (std::string physics = input::text_at(program, "physics"); !physics.empty()) {
+            out.push_back(std::move(physics));
+        }
+    };
+    add(manifest);
+    if (manifest.is_object() && manifest.contains("resumed_by") && manifest["resumed_by"].is_array()) {
+        for (const auto& program : manifest["resumed_by"]) {
+            add(program);
+        }
+    }
+    return out;
+}
+
+std::string other_physics(const input::Json& manifest) {
+    const auto all = physics_of(manifest);
+    if (!all.empty() && std::all_of(all.begin(), all.end(), [](const std::string& physics) { return physics == physics_revision(); })) {
+        return "";
+    }
+    return fmt::format("{}, and this program is physics {}",
+                       all.empty() ? std::string("a version without physics revision") : fmt::format("physics {}", fmt::join(all, " and ")),
+                       physics_revision());
+}
+
+std::string physics_warning(const input::Json& manifest) {
+    const auto all = physics_of(manifest);
+    if (all.size() > 1) {
+        return fmt::format("Computed by more than one physics: {}.", fmt::join(all, ", then "));
+    }
+    return all.empty() || all.front() == physics_revision()
+               ? ""
+               : fmt::format("Computed by physics {}, and reported by a program of physics {}.", all.front(), physics_revision());
 }
 
 std::string now_utc() {
@@ -84,10 +127,7 @@ input::Json manifest(const Deck& deck, const Bench& bench, const std::string& co
     j["status"] = "running";
     j["command"] = command;
     j["repeat_with"] = fmt::format("proveta run {}/manifest.json --out NEW_FOLDER", folder);
-    j["version"] = version();
-    j["compiler"] = PROVETA_COMPILER;
-    j["build"] = PROVETA_BUILD;
-    j["vector_kernel"] = instruction_set_name();
+    j.update(program_facts());
     j["threads"] = omp_get_max_threads();
     j["started"] = now_utc();
     j["resumed"] = input::Json::array();
@@ -114,6 +154,9 @@ input::Json manifest_to_go_on_with(const std::string& file, const input::Json& f
             j["resumed"] = input::Json::array();
         }
         j["resumed"].push_back(now_utc());
+        if (const auto all = physics_of(j); all.empty() || all.back() != physics_revision()) {
+            j["resumed_by"].push_back(program_facts());
+        }
     }
     return j;
 }
@@ -121,7 +164,11 @@ input::Json manifest_to_go_on_with(const std::string& file, const input::Json& f
 input::Json with_beginning_of(const std::string& file, input::Json fresh) {
     std::ifstream in(file);
     const input::Json there = in ? input::Json::parse(in, nullptr, false) : input::Json();
-    for (const char* key : {"command", "started"}) {
+    std::vector<std::string> kept{"command", "started"};
+    for (const auto& [key, value] : program_facts().items()) {
+        kept.push_back(key);
+    }
+    for (const auto& key : kept) {
         if (there.is_object() && there.contains(key)) {
             fresh[key] = there[key];
         }

@@ -12,8 +12,21 @@ namespace proveta {
 /// Program version, e.g. "0.1.0".
 std::string version();
 
-/// Version, compiler, build type, vector width: a few lines for --version.
+/// For --version: "proveta 0.1.0 (v0.1.0-14-g53fa0ab, physics 3f9c01d2a1b2, GNU 12.2.0, Release, AVX-512, 2 threads)".
 std::string version_text();
+
+/// The program, for manifests: "version", "revision" of git, "physics", "compiler", "build" and "vector_kernel".
+input::Json program_facts();
+
+/// The physics revision that a manifest names, and those that went on with it; empty for one from before there were any.
+std::vector<std::string> physics_of(const input::Json& manifest);
+
+/// What a manifest speaks of was computed by another physics than this program's, at least in part: "physics 3f9c01d2a1b2, and this program
+/// is physics 53fa0ab3c4d5"; empty where it was not.
+std::string other_physics(const input::Json& manifest);
+
+/// What a page is to say of a result that was not computed by this program's physics from its start to its end; empty otherwise.
+std::string physics_warning(const input::Json& manifest);
 
 /// UTC time as "2026-01-31T12:00:00Z".
 std::string now_utc();
@@ -37,11 +50,11 @@ std::vector<std::string> files_of(const Deck& deck);
 /// that runs it again. Its "status" is to be running, complete, interrupted or failed.
 input::Json manifest(const Deck& deck, const Bench& bench, const std::string& command, const std::string& folder);
 
-/// The manifest that a test begun earlier left in its folder; `fresh` when it left none. runs_on: it takes more steps, and the time of that
-/// is noted.
+/// The manifest that a test begun earlier left in its folder; `fresh` when it left none. runs_on: it takes more steps; the time of that is
+/// noted, and the program where it is of another physics than that it was begun by.
 input::Json manifest_to_go_on_with(const std::string& file, const input::Json& fresh, bool runs_on);
 
-/// A fresh manifest with the command and the start of that in a file, where it has them: of what is only reported.
+/// A fresh manifest with the program, the command and the start of that in a file, where it has them: of what is only reported.
 input::Json with_beginning_of(const std::string& file, input::Json fresh);
 
 /// Files of specimens in the decks of a manifest that have changed, or gone, since it was written. They are read again, so that nothing can

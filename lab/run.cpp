@@ -207,6 +207,9 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     const auto acoustic = acoustic_events(data.events, rule);
     report::write_file(out.file("acoustic.csv"), report::to_csv(acoustic_table(acoustic, rule)));
     report::Record record = make_record(deck, bench, data, acoustic, name(status));
+    if (const std::string warning = physics_warning(sheet); !warning.empty()) {
+        record.warnings.push_back(warning);
+    }
     if (deck.output.pictures > 0) {
         for (const auto& portrait : portraits(bench, data.moments, static_cast<int>(deck.output.pictures))) {
             write_picture(out, portrait.file, portrait.portrait.png);

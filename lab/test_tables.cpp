@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/input/units.hpp"
-#include "core/parallel/instruction_set.hpp"
 #include "lab/provenance.hpp"
 
 namespace proveta {
@@ -121,7 +120,7 @@ report::TextTable standards_table(const ProtocolInfo& info) {
 report::TextTable provenance_table(const Deck& deck, const Bench& bench) {
     return {"Provenance",
             {{"What", "Value"},
-             {"Program", fmt::format("Proveta {}, {}, {}", version(), PROVETA_COMPILER, instruction_set_name())},
+             {"Program", version_text()},
              {"Deck", deck.source},
              {"Specimen", fmt::format("seed {}, hash {}", deck.specimen.seed, hex(bench.specimen_hash))},
              {"Steps", fmt::format("{} of {:.4g} s (stable step at least {:.4g} s)", bench.model->steps(), bench.model->dt(),

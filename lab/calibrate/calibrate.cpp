@@ -7,6 +7,7 @@
 
 #include "lab/calibrate/search.hpp"
 #include "lab/provenance.hpp"
+#include "lab/revision.hpp"
 #include "lab/trials/decks.hpp"
 
 namespace proveta {
@@ -311,7 +312,11 @@ Json calibrated_card(const CalibrationPlan& plan, const std::vector<Target>& tar
     card["status"] = plan.input.card.status;
     card["about"] = plan.input.card.about.empty() ? "calibrated from " + base : plan.input.card.about;
     card["source"] = fmt::format("proveta {} calibrate, from {}; evidence below", version(), base);
-    Json evidence{{"version", version()}, {"area_rule", card["area_rule"]}, {"score_in_tolerances", best.deviations.score()}};
+    Json evidence{{"version", version()},
+                  {"revision", git_revision()},
+                  {"physics", physics_revision()},
+                  {"area_rule", card["area_rule"]},
+                  {"score_in_tolerances", best.deviations.score()}};
     evidence["trials"] = outcome.trials.size();
     evidence["whole_specimens"] = best.whole;
     for (std::size_t k = 0; k < plan.space.size(); ++k) {

@@ -285,17 +285,15 @@ Json calibration_manifest(const CalibrationPlan& plan, const std::string& comman
         input["tests"][k]["deck"] = plan.tests[k].written; // without a file, which may change
         decks[plan.tests[k].name] = plan.tests[k].deck;
     }
-    return {{manifest_mark, 1},
-            {"status", status},
-            {"command", command},
-            {"version", version()},
-            {"compiler", PROVETA_COMPILER},
-            {"build", PROVETA_BUILD},
-            {"input_file", std::filesystem::absolute(plan.source).lexically_normal().string()},
-            {"files", plan.files},
-            {"curves", plan.curves},
-            {"input", input},
-            {"decks", decks}};
+    Json j{{manifest_mark, 1}, {"status", status}};
+    j.update(program_facts());
+    j.update({{"command", command},
+              {"input_file", std::filesystem::absolute(plan.source).lexically_normal().string()},
+              {"files", plan.files},
+              {"curves", plan.curves},
+              {"input", input},
+              {"decks", decks}});
+    return j;
 }
 
 Json calibration_schema() {

@@ -80,12 +80,10 @@ int compare(const PlotArguments& a, const std::string& typed) {
     out.begin();
     report::write_file(out.file("comparison.csv"), report::to_csv(comparison_values(tests)));
     report::write_file(out.file("report.html"), report::to_html(record));
-    out.write_manifest({{"proveta_comparison_manifest", 1},
-                        {"status", "complete"},
-                        {"command", typed},
-                        {"version", version()},
-                        {"written", now_utc()},
-                        {"folders", a.folders}});
+    input::Json sheet{{"proveta_comparison_manifest", 1}, {"status", "complete"}};
+    sheet.update(program_facts());
+    sheet.update({{"command", typed}, {"written", now_utc()}, {"folders", a.folders}});
+    out.write_manifest(sheet);
     fmt::print("{}", aligned(record.tables.front()));
     for (const auto& warning : record.warnings) {
         fmt::print("warning: {}\n", warning);

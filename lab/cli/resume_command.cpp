@@ -56,6 +56,10 @@ int go_on_with(const ResumeArguments& a, const std::string& typed, const input::
     if (status == "cleared") {
         spdlog::warn("the run was stopped while it cleared an earlier result, which is calculated anew");
         passage = Passage::begin;
+    } else if (const auto other = other_physics(manifest); !other.empty() && !manifest.contains("proveta_series_manifest")) {
+        spdlog::warn("computed by {}: {}", other,
+                     passage == Passage::go_on ? "the result may differ from that of a run that was never stopped"
+                                               : "what is reported is what that computed");
     }
     const RunOptions options{a.folder, typed, a.quiet, passage};
     if (scene) {

@@ -51,6 +51,7 @@ int carry_out_trials(const TrialArguments& a) {
     catch_interrupts();
     for (std::size_t k = share.rank; k < folders.size(); k += share.size) {
         const auto names = jobs_of(folders[k]);
+        refuse_other_physics(folders[k]);
         if (!a.job.empty() && std::find(names.begin(), names.end(), a.job) == names.end()) {
             throw input::InputError({{folders[k].string(), "", "no job \"" + a.job + "\"", "one of its trial.json", ""}});
         }

@@ -28,19 +28,17 @@ Json manifest_of(const Scene& scene, const RunOptions& options) {
     for (const auto& m : scene.materials) {
         own.push_back((std::filesystem::path(scene.folder) / m.material.card).string());
     }
-    return {{"proveta_scene_manifest", 1},
-            {"status", "running"},
-            {"version", version()},
-            {"compiler", PROVETA_COMPILER},
-            {"build", PROVETA_BUILD},
-            {"command", options.command},
-            {"started", now_utc()},
-            {"resumed", Json::array()},
-            {"threads", omp_get_max_threads()},
-            {"repeat_with", fmt::format("proveta scene {}/manifest.json --out NEW_FOLDER", options.out)},
-            {"files", hashes_of(own)},
-            {"files_read_again", hashes_of(files_of(scene))},
-            {"scene", resolved(scene)}};
+    Json j{{"proveta_scene_manifest", 1}, {"status", "running"}};
+    j.update(program_facts());
+    j.update({{"command", options.command},
+              {"started", now_utc()},
+              {"resumed", Json::array()},
+              {"threads", omp_get_max_threads()},
+              {"repeat_with", fmt::format("proveta scene {}/manifest.json --out NEW_FOLDER", options.out)},
+              {"files", hashes_of(own)},
+              {"files_read_again", hashes_of(files_of(scene))},
+              {"scene", resolved(scene)}});
+    return j;
 }
 
 void log_start(const Model& m) {
@@ -56,7 +54,10 @@ void log_start(const Model& m) {
 // only_reported: the times of the calculation stay those of the manifest.
 void write_results(const Scene& scene, const ScenePlay& play, const SceneSeen& seen, const OutputFolder& out, Json& sheet,
                    bool only_reported) {
-    const report::Record record = scene_record(scene, play, seen);
+    report::Record record = scene_record(scene, play, seen);
+    if (const std::string warning = physics_warning(sheet); !warning.empty()) {
+        record.warnings.push_back(warning);
+    }
     report::write_file(out.file("curve.csv"), report::to_csv(seen.curve));
     report::write_file(out.file("energy.csv"), report::to_csv(seen.energy));
     report::write_file(out.file("particles.csv"), report::to_csv(particle_table(play.model())));
@@ -73,10 +74,20 @@ void write_results(const Scene& scene, const ScenePlay& play, const SceneSeen& s
     fmt::print("{}results in {}\n", as_text(record), out.path().string());
 }
 
+// What the user should know of surfaces and bodies from files.
+void warn_of(const ScenePlay& play) {
+    for (const auto& note : play.notes()) {
+        spdlog::warn("{}", note);
+    }
+}
+
 RunStatus play_scene(const Scene& scene, const RunOptions& options, OutputFolder& out, Progress& progress) {
     progress.show("making surfaces and particles");
     ScenePlay play(scene);
     progress.end_line();
+    if (options.passage == Passage::begin) {
+        warn_of(play);
+    }
     const auto log = [&](const char* line) {
         if (!options.quiet) {
             spdlog::info("{}", line);
@@ -126,6 +137,9 @@ RunStatus run_scene(const Scene& scene, const RunOptions& options) {
     return with_way_on(out, [&] { return play_scene(scene, options, out, progress); });
 }
 
-void try_scene(const Scene& scene) { ScenePlay play(scene); }
+void try_scene(const Scene& scene) {
+    const ScenePlay play(scene);
+    warn_of(play);
+}
 
 } // namespace proveta

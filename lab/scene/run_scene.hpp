@@ -10,7 +10,7 @@ namespace proveta {
 /// before anything is written when the scene is wrong, or when the checkpoints are not of it, and FileError.
 RunStatus run_scene(const Scene& scene, const RunOptions& options);
 
-/// Looks at what only the making tells: files, forms, room. Throws InputError.
+/// Looks at what only the making tells: files, forms, room. Says, on stderr, what the user should know of them. Throws InputError.
 void try_scene(const Scene& scene);
 
 } // namespace proveta

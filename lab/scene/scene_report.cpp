@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel/instruction_set.hpp"
 #include "lab/citation.hpp"
 #include "lab/provenance.hpp"
 #include "lab/quasi_static.hpp"
@@ -111,7 +110,7 @@ std::vector<report::TextTable> tables_of(const Scene& scene, const ScenePlay& pl
     report::TextTable provenance{
         "Provenance",
         {{"What", "Value"},
-         {"Program", fmt::format("Proveta {}, {}, {}", version(), PROVETA_COMPILER, instruction_set_name())},
+         {"Program", version_text()},
          {"Scene", scene.source},
          {"Steps", fmt::format("{} of {:.4g} s, {} searches, skin {:.3g} of the mean radius at the end", m.steps(), m.dt(), m.searches(),
                                m.skin() / mean_radius(play.feed().kinds()))},

@@ -162,7 +162,7 @@ Json series_manifest(const Plan& plan, const std::vector<std::string>& hashes, c
     }
     j["command"] = command;
     j["repeat_with"] = fmt::format("proveta run {}/manifest.json --out NEW_FOLDER", folder);
-    j["version"] = version();
+    j.update(program_facts());
     j["started"] = started;
     for (std::size_t k = 0; k < plan.members.size(); ++k) {
         const Member& m = plan.members[k];

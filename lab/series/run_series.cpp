@@ -124,10 +124,26 @@ Specimens make_ready(const Plan& plan, Board& board) {
     return out;
 }
 
-// What the manifest of a member's folder says; "" where there is none.
-std::string status_in(const std::filesystem::path& folder) {
+// The manifest of a member's folder; null where there is none.
+input::Json manifest_in(const std::filesystem::path& folder) {
     const auto file = folder / "manifest.json";
-    return std::filesystem::exists(file) ? input::text_at(input::load_json(file.string()), "status") : "";
+    return std::filesystem::exists(file) ? input::load_json(file.string()) : input::Json();
+}
+
+std::string status_in(const std::filesystem::path& folder) { return input::text_at(manifest_in(folder), "status"); }
+
+// Results of two physics make no statistics: members that another one has computed, or begun, are computed again, and that is said first.
+std::vector<bool> of_other_physics(const Plan& plan, const OutputFolder& out, Passage passage) {
+    std::vector<bool> again(plan.members.size(), false);
+    for (std::size_t k = 0; k < plan.members.size() && passage != Passage::begin; ++k) {
+        const auto there = manifest_in(out.path() / plan.members[k].name);
+        if (const std::string other = there.is_object() ? other_physics(there) : ""; !other.empty()) {
+            spdlog::warn("{} was computed by {}: {}", plan.members[k].name, other,
+                         passage == Passage::go_on ? "it is computed again" : "what is reported is what that computed");
+            again[k] = passage == Passage::go_on;
+        }
+    }
+    return again;
 }
 
 MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& folder, const RunOptions& options, const RunWatch& watch) {
@@ -165,9 +181,9 @@ MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& f
     return result;
 }
 
-// Members one after the other by each of the workers, in the order of the decks.
+// Members one after the other by each of the workers, in the order of the decks. again: those that do not go on from what is there.
 std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specimens, std::vector<std::unique_ptr<OutputFolder>>& folders,
-                                      const RunOptions& options, std::size_t threads, Board& board) {
+                                      const std::vector<bool>& again, const RunOptions& options, std::size_t threads, Board& board) {
     const std::size_t n = plan.members.size();
     std::vector<MemberResult> results(n);
     for (std::size_t k = 0; k < n; ++k) {
@@ -180,7 +196,9 @@ std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specime
         omp_set_num_threads(threads_of_worker(worker, workers, threads)); // of this worker's members only
         for (std::size_t k = next++; k < n && !interrupted(); k = next++) {
             const auto show = [&](const std::string& phase, const std::string&, double done) { board.show(k, phase, done); };
-            results[k] = run_member(plan.members[k], *specimens.of[k], *folders[k], options, {show, [](const std::string&) {}});
+            RunOptions own = options;
+            own.passage = again[k] ? Passage::begin : options.passage;
+            results[k] = run_member(plan.members[k], *specimens.of[k], *folders[k], own, {show, [](const std::string&) {}});
             board.ended(k, results[k]);
         }
     };
@@ -238,6 +256,7 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
         names.push_back(member.name);
         folders.push_back(std::make_unique<OutputFolder>(out.path() / member.name));
     }
+    const auto again = of_other_physics(plan, out, options.passage);
     const std::string started = now_utc();
     const std::string folder = out.path().string();
     Board board(plan, options.quiet);
@@ -250,7 +269,7 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
     if (options.passage != Passage::report) {
         write_manifest("running");
     }
-    auto members = run_members(plan, specimens, folders, options, static_cast<std::size_t>(std::max(threads, 1)), board);
+    auto members = run_members(plan, specimens, folders, again, options, static_cast<std::size_t>(std::max(threads, 1)), board);
 
     if (options.passage == Passage::report) {
         if (interrupted()) {

@@ -1,6 +1,7 @@
 #include "lab/sweep/run_sweep.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <map>
 
@@ -19,18 +20,16 @@ namespace {
 
 // manifest.json: repeats the sweep. status: running, planned, complete, interrupted or failed.
 Json manifest_of(const Sweep& sweep, const SweepOptions& options, const std::string& status, const std::string& started) {
-    return {{"proveta_sweep_manifest", 1},
-            {"status", status},
-            {"version", version()},
-            {"compiler", PROVETA_COMPILER},
-            {"build", PROVETA_BUILD},
-            {"command", options.command},
-            {"started", started},
-            {"written", now_utc()},
-            {"to_repeat", "proveta sweep manifest.json --out NEW_FOLDER"},
-            {"points", sweep.points.size()},
-            {"files", sweep.files},
-            {"sweep", resolved(sweep)}};
+    Json j{{"proveta_sweep_manifest", 1}, {"status", status}};
+    j.update(program_facts());
+    j.update({{"command", options.command},
+              {"started", started},
+              {"written", now_utc()},
+              {"to_repeat", "proveta sweep manifest.json --out NEW_FOLDER"},
+              {"points", sweep.points.size()},
+              {"files", sweep.files},
+              {"sweep", resolved(sweep)}});
+    return j;
 }
 
 // Everything but the manifest; the report last. Returns what is to be printed too.
@@ -59,6 +58,10 @@ RunStatus run_sweep(const Sweep& sweep, const SweepOptions& options) {
     OutputFolder folder(options.out);
     TrialBook book(options.out, options.mode, static_cast<std::size_t>(options.threads), options.quiet, [&folder] { folder.look(); });
     options.mode == BookMode::report ? folder.go_on() : folder.begin(); // once nobody else has the book
+    const auto trials = trials_of(sweep);
+    if (const std::string others = book.of_other_physics(); !others.empty()) {
+        spdlog::warn("{}: {} of {} points", others, trials.size() - book.known(trials), trials.size());
+    }
     const std::string started = now_utc();
     const auto write_manifest = [&](const std::string& status) {
         auto sheet = manifest_of(sweep, options, status, started);
@@ -68,8 +71,8 @@ RunStatus run_sweep(const Sweep& sweep, const SweepOptions& options) {
         write_manifest("running");
     }
     try {
-        const auto [status, text] = with_way_on(
-            folder, [&] { return write_results(sweep, folder, book.folders(), book.evaluate(trials_of(sweep), sweep.input.title)); });
+        const auto [status, text] =
+            with_way_on(folder, [&] { return write_results(sweep, folder, book.folders(), book.evaluate(trials, sweep.input.title)); });
         write_manifest(status == RunStatus::failed ? "failed" : "complete");
         fmt::print("{}", text); // the last: it may find nobody who listens
         return status;
@@ -88,6 +91,7 @@ std::string sweep_status(const Sweep& sweep, const std::string& out) {
         const std::string key = result.key;
         known.insert_or_assign(key, std::move(result));
     }
+    const auto others = std::erase_if(known, [](const auto& entry) { return !of_this_physics(entry.second); });
     const TrialFolders folders(out);
     const auto trials = trials_of(sweep);
     std::size_t done = 0;
@@ -109,8 +113,9 @@ std::string sweep_status(const Sweep& sweep, const std::string& out) {
             }
         }
     }
-    return fmt::format("{} of {} points done, {} of {} tests, {} of running time\n{}", done, trials.size(), tests, jobs,
-                       Progress::duration(seconds), failures.empty() ? "no failures\n" : "failures:\n" + failures);
+    return fmt::format("{} of {} points done, {} of {} tests, {} of running time\n{}{}", done, trials.size(), tests, jobs,
+                       Progress::duration(seconds), failures.empty() ? "no failures\n" : "failures:\n" + failures,
+                       others > 0 ? fmt::format("not counted, of another physics: {}\n", others) : "");
 }
 
 } // namespace proveta

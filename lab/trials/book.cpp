@@ -201,10 +201,42 @@ void TrialBook::carry_out(const std::vector<Trial>& trials, const std::vector<st
     progress_.end_line();
 }
 
-// A trial that has ended, and whose curves nobody has taken away.
+bool of_this_physics(const TrialResult& result) {
+    return std::all_of(result.jobs.begin(), result.jobs.end(), [](const JobResult& job) { return job.physics == physics_revision(); });
+}
+
+std::size_t TrialBook::known() const {
+    return static_cast<std::size_t>(
+        std::count_if(known_.begin(), known_.end(), [](const auto& entry) { return of_this_physics(entry.second); }));
+}
+
+std::size_t TrialBook::known(const std::vector<Trial>& keyed) const {
+    return static_cast<std::size_t>(std::count_if(keyed.begin(), keyed.end(), [&](const Trial& trial) { return holds(trial.key); }));
+}
+
+std::string TrialBook::of_other_physics() const {
+    std::set<std::string> others;
+    for (const auto& [key, result] : known_) {
+        for (const auto& job : result.jobs) {
+            if (job.physics != physics_revision()) {
+                others.insert(job.physics.empty() ? "a version without physics revision" : "physics " + job.physics);
+            }
+        }
+    }
+    const std::size_t n = known_.size() - known();
+    return others.empty()
+               ? ""
+               : fmt::format("{} in the ledger computed by {}, while this program is physics {}: none is taken, and what is asked "
+                             "for is computed again",
+                             n == 1 ? "1 trial" : fmt::format("{} trials", n), fmt::join(others, " and "), physics_revision());
+}
+
+// A trial of this physics that has ended, and whose curves nobody has taken away.
 bool TrialBook::holds(const std::string& key) const {
     const auto found = known_.find(key);
-    const auto whole = [&](const JobResult& job) { return has_all_of(job, folders_.trial(key) / job.name); };
+    const auto whole = [&](const JobResult& job) {
+        return job.physics == physics_revision() && has_all_of(job, folders_.trial(key) / job.name);
+    };
     return found != known_.end() && (mode_ != BookMode::run || !failed_by_machine_.contains(key)) &&
            std::all_of(found->second.jobs.begin(), found->second.jobs.end(), whole);
 }
@@ -246,8 +278,9 @@ std::vector<TrialResult> TrialBook::evaluate(std::vector<Trial> trials, const st
     }
     if (!missing.empty() && mode_ == BookMode::report) {
         throw input::InputError(
-            {{folders_.out().string(), "", fmt::format("{} of {} trials not there, or without their curves", missing.size(), asked.size()),
-              "a folder with all of them, of this version of the program", "proveta resume carries them out"}});
+            {{folders_.out().string(), "",
+              fmt::format("{} of {} trials not there, of another physics, or without their curves", missing.size(), asked.size()),
+              "a folder with all of them, of this program's physics", "proveta resume carries them out"}});
     }
     if (!missing.empty() && mode_ == BookMode::plan) {
         std::vector<std::string> folders;

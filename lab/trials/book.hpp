@@ -22,6 +22,9 @@ struct TrialResult {
     [[nodiscard]] std::optional<double> mean(const std::string& test, const std::string& result) const;
 };
 
+/// Whether all of a trial was computed by this program's physics.
+bool of_this_physics(const TrialResult& result);
+
 /// What to do with trials that have not been carried out yet.
 enum class BookMode {
     run,   ///< carry them out here, as processes
@@ -56,8 +59,12 @@ class TrialBook {
     /// TrialsInterrupted, and InputError for missing ones that are not to be carried out.
     std::vector<TrialResult> evaluate(std::vector<Trial> trials, const std::string& what);
 
-    /// Trials in the ledger, those of other questions included.
-    [[nodiscard]] std::size_t known() const { return known_.size(); }
+    /// Trials in the ledger, those of other questions included and those of another physics not.
+    [[nodiscard]] std::size_t known() const;
+    /// Of these trials, those that would be taken from the ledger.
+    [[nodiscard]] std::size_t known(const std::vector<Trial>& keyed) const;
+    /// A sentence on the trials in the ledger that another physics computed, which are not taken; empty where there are none.
+    [[nodiscard]] std::string of_other_physics() const;
     /// Trials that this process has carried out.
     [[nodiscard]] std::size_t carried_out() const { return carried_out_; }
     [[nodiscard]] const TrialFolders& folders() const { return folders_; }

@@ -34,12 +34,15 @@ std::string bytes_of(const fs::path& file) {
 // A specimen made by a recipe, and not a stored one.
 bool made(const Json& deck) { return deck["specimen"].value("file", "").empty(); }
 
-std::string specimen_key(const Json& deck) { return hash_of_text(deck["specimen"].dump()); }
-
 void run(const fs::path& folder, JobResult& result) {
     Deck deck = read_deck(input::load_json((folder / "deck.json").string()), (folder / "deck.json").string());
     Bench bench = set_up(deck, obtain_specimen(deck.specimen, deck.folder, deck.source));
-    const TestData data = run_protocol(deck, bench, {[](const TestData&, double) {}, [] {}, interrupted});
+    const TestHooks hooks{[](const TestData&, double) {}, [] {}, interrupted};
+    TestData data = run_protocol(deck, bench, hooks);
+    if (deck.protocol->checks_rate() && data.failure.empty() && !data.interrupted) {
+        data.rate_check = check_rate(deck, bench.specimen, data.curve, hooks);
+        data.interrupted = !data.rate_check && interrupted();
+    }
     result.reason = data.failure.empty() ? data.stopped_by : data.failure;
     result.status = data.interrupted ? "interrupted" : data.failure.empty() ? "complete" : "failed";
     if (result.status != "complete") {
@@ -55,6 +58,10 @@ void run(const fs::path& folder, JobResult& result) {
         }
     }
     result.quasi_static = record.badges.front().good;
+    result.verdict = record.badges.front().verdict;
+    if (data.rate_check) {
+        result.rate_difference = data.rate_check->difference;
+    }
     result.sense = bench.press.sense;
     report::write_file((folder / "curve.csv").string(), report::to_csv(data.curve));
 }
@@ -62,17 +69,31 @@ void run(const fs::path& folder, JobResult& result) {
 } // namespace
 
 Json to_json(const JobResult& r) {
-    return {{"job", r.name},    {"test", r.test},       {"status", r.status},   {"reason", r.reason}, {"quasi_static", r.quasi_static},
-            {"sense", r.sense}, {"seconds", r.seconds}, {"results", r.results}, {"units", r.units},   {"of_machine", r.of_machine}};
+    Json j{{"job", r.name},    {"test", r.test},       {"status", r.status},   {"reason", r.reason}, {"quasi_static", r.quasi_static},
+           {"sense", r.sense}, {"seconds", r.seconds}, {"results", r.results}, {"units", r.units},   {"of_machine", r.of_machine}};
+    j["verdict"] = r.verdict;
+    if (r.rate_difference) {
+        j["rate_difference"] = *r.rate_difference;
+    }
+    j["physics"] = r.physics;
+    return j;
 }
 
 JobResult job_result(const Json& j) {
-    return {j.at("job"),          j.at("test"),  j.at("status"),  j.at("reason"), j.at("results"),
-            j.at("quasi_static"), j.at("sense"), j.at("seconds"), j.at("units"),  j.value("of_machine", false)};
+    JobResult r{j.at("job"),          j.at("test"),  j.at("status"),  j.at("reason"), j.at("results"),
+                j.at("quasi_static"), j.at("sense"), j.at("seconds"), j.at("units"),  j.value("of_machine", false)};
+    r.verdict = input::text_at(j, "verdict");
+    if (j.contains("rate_difference")) {
+        r.rate_difference = j["rate_difference"].get<double>();
+    }
+    r.physics = input::text_at(j, "physics");
+    return r;
 }
 
-Trial keyed(Trial trial) {
-    std::string all = version();
+std::string specimen_key(const Json& recipe, const std::string& physics) { return hash_of_text(physics + '\n' + recipe.dump()); }
+
+Trial keyed(Trial trial, const std::string& physics) {
+    std::string all = physics;
     for (const auto& job : trial.jobs) {
         all += '\n' + job.name + ' ' + job.deck.dump();
         if (!made(job.deck)) {
@@ -117,7 +138,7 @@ bool TrialFolders::write(const Trial& t) const {
         }
         Json deck = job.deck;
         if (made(deck)) {
-            const std::string name = specimen_key(deck) + ".h5";
+            const std::string name = specimen_key(deck["specimen"]) + ".h5";
             const fs::path file = out_ / "specimens" / name;
             if (!fs::exists(file)) {
                 make_specimen(deck, file);
@@ -131,7 +152,8 @@ bool TrialFolders::write(const Trial& t) const {
         report::write_json((folder / job.name / "deck.json").string(), deck);
         list.push_back({{"job", job.name}, {"test", job.test}});
     }
-    report::write_json((folder / "trial.json").string(), {{"proveta_trial", 1}, {"values", t.values}, {"jobs", list}});
+    report::write_json((folder / "trial.json").string(),
+                       {{"proveta_trial", 1}, {"physics", physics_revision()}, {"values", t.values}, {"jobs", list}});
     return true;
 }
 
@@ -147,6 +169,15 @@ std::vector<std::string> jobs_of(const fs::path& trial) {
     return out;
 }
 
+void refuse_other_physics(const fs::path& trial) {
+    const std::string file = (trial / "trial.json").string();
+    if (const std::string planned = input::text_at(input::load_json(file), "physics"); planned != physics_revision()) {
+        throw input::InputError(
+            {{file, "/physics", "\"" + planned + "\"", fmt::format("\"{}\", this program's physics revision", physics_revision()),
+              "carry it out by the program that planned it, or plan it again by this one"}});
+    }
+}
+
 bool has_all_of(const JobResult& result, const fs::path& job) { return result.status != "complete" || fs::exists(job / "curve.csv"); }
 
 std::optional<JobResult> result_in(const fs::path& job) {
@@ -157,7 +188,7 @@ std::optional<JobResult> result_in(const fs::path& job) {
     }
     try {
         const JobResult result = job_result(json);
-        return has_all_of(result, job) ? std::optional(result) : std::nullopt;
+        return result.physics == physics_revision() && has_all_of(result, job) ? std::optional(result) : std::nullopt;
     } catch (const Json::exception&) {
         return std::nullopt; // of another kind
     }
@@ -181,6 +212,7 @@ namespace {
 JobResult unfinished(const fs::path& folder) {
     JobResult result;
     result.name = folder.filename().string();
+    result.physics = physics_revision();
     const Json trial = input::load_json((folder.parent_path() / "trial.json").string());
     for (const auto& job : trial["jobs"]) {
         if (job["job"] == result.name) {

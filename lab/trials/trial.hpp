@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/input/json.hpp"
+#include "lab/revision.hpp"
 #include "reports/record/record.hpp"
 
 namespace proveta {
@@ -46,6 +47,9 @@ struct JobResult {
     double seconds = 0.0;                          ///< wall time on its threads
     std::map<std::string, std::string> units = {}; ///< SI units of the results that have one
     bool of_machine = false;                       ///< failed by the machine and not by itself: no memory, or killed
+    std::string verdict = {};                      ///< of quasi-static loading, in words
+    std::optional<double> rate_difference = {};    ///< of the peak from that at half the rate, where the deck asks for that check
+    std::string physics = {};                      ///< revision of the program that carried it out
 
     [[nodiscard]] std::optional<double> value(const std::string& result) const {
         const auto found = results.find(result);
@@ -56,8 +60,11 @@ struct JobResult {
 input::Json to_json(const JobResult& result);
 JobResult job_result(const input::Json& json);
 
-/// The trial with its key. Program version, decks and the bytes of stored specimens count.
-Trial keyed(Trial trial);
+/// The trial with its key. The physics revision, decks and the bytes of stored specimens count.
+Trial keyed(Trial trial, const std::string& physics = physics_revision());
+
+/// Name of the file of the specimen that a recipe makes, without its ending. The physics revision and the recipe count.
+std::string specimen_key(const input::Json& recipe, const std::string& physics = physics_revision());
 
 /// Where trials live.
 class TrialFolders {
@@ -86,7 +93,7 @@ class TrialFolders {
 /// Whether a job's folder has what its result speaks of: the curve of one that is complete.
 bool has_all_of(const JobResult& result, const std::filesystem::path& job);
 
-/// The result of a job's folder; nothing where there is none, one of another kind, or one without its curve.
+/// The result of a job's folder; nothing where there is none, one of another physics or kind, or one without its curve.
 std::optional<JobResult> result_in(const std::filesystem::path& job);
 
 /// Carries out one job of a trial's folder, whatever went before, and writes its result. What fails is a result too. Returns false on an
@@ -95,6 +102,9 @@ bool run_job(const std::filesystem::path& folder);
 
 /// Names of the jobs of a trial's folder. Throws InputError when it is none.
 std::vector<std::string> jobs_of(const std::filesystem::path& trial);
+
+/// Throws InputError for a trial that a program of another physics planned: its answer would not be the one asked for.
+void refuse_other_physics(const std::filesystem::path& trial);
 
 /// Puts a failure in the place of a job's result. of_machine: see `JobResult`.
 void write_failure(const std::filesystem::path& job, const std::string& reason, bool of_machine);

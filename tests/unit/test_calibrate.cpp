@@ -259,11 +259,13 @@ TEST_CASE("ledger: half a line of a killed process is cut off, a second process 
     const TemporaryFolder folder;
     const std::string line =
         R"({"trial":"aa","values":[1.5],"jobs":[{"job":"ucs","test":"ucs","status":"complete","reason":"","quasi_static":true,)"
-        R"("sense":1.0,"seconds":2.0,"results":{"strength":3.0},"units":{"strength":"Pa"}}]})";
+        R"("sense":1.0,"seconds":2.0,"results":{"strength":3.0},"units":{"strength":"Pa"},"physics":")" +
+        std::string(physics_revision()) + "\"}]}";
     folder.write("ledger.jsonl", line + "\n" + line.substr(0, 40));
     {
         const TrialBook book(folder.path(), BookMode::run, 1, true);
         CHECK(book.known() == 1);
+        CHECK(book.of_other_physics().empty());
         CHECK_THROWS_AS(TrialBook(folder.path(), BookMode::run, 1, true), input::InputError);
     }
     const auto trials = TrialBook::read(folder.path());
@@ -272,6 +274,12 @@ TEST_CASE("ledger: half a line of a killed process is cut off, a second process 
     CHECK_FALSE(trials[0].mean("ucs", "none"));
     CHECK_FALSE(trials[0].mean("bts", "strength"));
     CHECK(std::filesystem::file_size(folder.path() / "ledger.jsonl") == line.size() + 1);
+    folder.write("ledger.jsonl", line.substr(0, line.find(",\"physics")) + "}]}\n"); // of a program from before there was a revision
+    {
+        const TrialBook book(folder.path(), BookMode::run, 1, true);
+        CHECK(book.known() == 0);
+        CHECK(book.of_other_physics().find("1 trial in the ledger computed by a version without physics revision") == 0);
+    }
     folder.write("ledger.jsonl", "{}\n");
     CHECK_THROWS_AS(TrialBook(folder.path(), BookMode::run, 1, true), input::InputError);
 }
