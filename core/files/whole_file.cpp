@@ -76,6 +76,18 @@ void write_whole(const std::string& file, const void* data, std::size_t size) {
     move_into_place(partial_name(file), file);
 }
 
+void require_writable(const std::string& file) {
+    const std::string partial = partial_name(file);
+    if (std::error_code unseen; std::filesystem::is_directory(file, unseen)) {
+        errno = EISDIR;
+        fail(file, partial);
+    }
+    if (const Descriptor out(partial, O_WRONLY | O_CREAT); !out.good()) {
+        fail(file, partial);
+    }
+    std::remove(partial.c_str());
+}
+
 void make_folder(const std::string& folder) {
     std::error_code error;
     std::filesystem::create_directory(folder, error);

@@ -16,6 +16,9 @@ struct FileError : std::runtime_error {
 /// its name. Throws FileError with the system's reason; nothing is left then but what was there before.
 void write_whole(const std::string& file, const void* data, std::size_t size);
 
+/// Throws FileError, with the system's reason, where `write_whole` could not write a file: before what it is to hold has been worked out.
+void require_writable(const std::string& file);
+
 /// Gives a file, which is whole and on the disk, its name, and has the folder remember it. Throws FileError with the system's
 /// reason; what was to be moved is gone then.
 void move_into_place(const std::string& from, const std::string& file);

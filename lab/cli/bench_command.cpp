@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 
+#include "core/files/whole_file.hpp"
 #include "core/parallel/instruction_set.hpp"
 #include "lab/benchmark.hpp"
 #include "lab/cli/commands.hpp"
@@ -41,6 +42,9 @@ double peak_memory() {
 }
 
 int bench(const BenchArguments& a) {
+    if (!a.json.empty()) {
+        require_writable(a.json);
+    }
     const auto sizes = a.specimen.empty() ? a.sizes : std::vector<int>{0};
     fmt::print("# {} {}, {}, vector kernel {}\n", "proveta", version(), PROVETA_COMPILER, instruction_set_name());
     input::Json out = {{"program", version()}, {"compiler", PROVETA_COMPILER}, {"vector_kernel", instruction_set_name()}};

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/files/whole_file.hpp"
 #include "lab/cli/commands.hpp"
 #include "lab/clock.hpp"
 #include "lab/elastic/stiffness.hpp"
@@ -97,6 +98,9 @@ int elastic(const ElasticArguments& a) {
     use_threads(a.threads);
     input::Json json{{"test", "ucs"}, {"specimen", {{"file", a.specimen}}}, {"material", {{"card", a.card}}}};
     apply_settings(json, a.settings);
+    if (!a.json.empty()) {
+        require_writable(a.json);
+    }
     const Deck deck = read_deck(json, "elastic");
     const Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source);
     const auto start = Clock::now();

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/bonds/bonds.hpp"
+#include "core/files/whole_file.hpp"
 #include "lab/cli/commands.hpp"
 #include "lab/deck.hpp"
 #include "lab/progress.hpp"
@@ -115,6 +116,7 @@ void add_make(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Comm
             if (!problems.empty()) {
                 throw input::InputError(problems);
             }
+            on_file(a->out, [&] { require_writable(a->out); });
             Progress progress(false);
             const Specimen s = obtain_specimen(
                 recipe, ".", source, [&](double done) { progress.show(fmt::format("making the specimen  {:.0f} %", 100.0 * done)); });
