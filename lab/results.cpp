@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/input/units.hpp"
+#include "lab/checks.hpp"
 #include "lab/citation.hpp"
 #include "lab/crack_report.hpp"
 #include "lab/derived.hpp"
@@ -18,8 +19,6 @@
 namespace proveta {
 
 namespace {
-
-constexpr double few_across = 8.0; // mean sphere diameters (docs/results.md, sizes)
 
 // What stands large at the head: of these, in this order, those that the test has.
 const std::vector<std::string> key_results{"friction_angle", "strength",        "splitting_strength", "tensile_strength",
@@ -50,32 +49,8 @@ std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, 
             out.push_back(badge.name + ": " + badge.verdict + ".");
         }
     }
-    const bool bonded = bench.model->bonds.size() > 0;
-    if (bonded && std::fabs(bench.partition.section - 1.0) > 0.015) {
-        out.push_back(fmt::format("The bond areas make up {:.3f} of the section: stiffness and strength are off by as much "
-                                  "(card's area rule: {}).",
-                                  bench.partition.section, deck.material.values.area_rule));
-    }
-    if (bench.laguerre) {
-        const auto pairs = static_cast<double>(bench.dropped + bench.model->bonds.size());
-        if (static_cast<double>(bench.dropped) > 0.02 * pairs || bench.laguerre->unbonded_share > 0.05) {
-            out.push_back(fmt::format("Exact areas: {} pairs within reach share no facet and are not bonded, and {:.1f} % of the facet "
-                                      "area belongs to pairs beyond reach; set bonding.coordination so that both are few.",
-                                      bench.dropped, 100.0 * bench.laguerre->unbonded_share));
-        }
-    }
-    if (const auto& l = bench.long_bonds; l.count > 0) {
-        out.push_back(fmt::format("{} of {} bonds are longer than {}, so that they tear with less than the card's fracture energy: smaller "
-                                  "spheres, or more tensile_characteristic_length.",
-                                  l.count, bench.model->bonds.size(), input::format_quantity(l.longest_allowed, input::Unit::length)));
-    }
-    const Shape& shape = bench.specimen.shape;
-    const double across = std::min(shape.lateral_size(), shape.height) / (2.0 * bench.statistics.mean_radius);
-    if (bench.long_bonds.longest_allowed > 0.0 && across < few_across) {
-        out.push_back(fmt::format("The specimen is only {:.1f} mean spheres wide at its narrowest; strengths scatter, and hold from about "
-                                  "{:.0f} on.",
-                                  across, few_across));
-    }
+    const auto known = warnings_in_press(bench, deck);
+    out.insert(out.end(), known.begin(), known.end());
     if (const std::string made = coupling_warning(data.energy); !made.empty()) {
         out.push_back(made);
     }
@@ -84,23 +59,13 @@ std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, 
             out.push_back(fmt::format("The membrane leaked: {} contacts of particles whose centre lay beyond it.", body.crossings));
         }
     }
-    for (const auto& calibration : bench.calibrations) {
-        if (!calibration.result.in_reach) {
-            out.push_back(fmt::format("{}: Poisson's ratio {:.4g} is out of reach of the bond model, which comes to {:.3f} here; E is "
-                                      "the card's. \"elasticity\": \"calibrated\" reaches higher ratios by the averaged stress.",
-                                      calibration.name, calibration.result.wanted_poisson_ratio, calibration.result.poisson_ratio));
-        }
-    }
+    const bool bonded = bench.model->bonds.size() > 0;
     if (bonded && bench.model->dt() < bench.model->first_dt()) { // contacts of loose matter stiffen as they are pressed
         out.push_back(fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when new contacts had made the specimen stiffer.",
                                   bench.model->first_dt(), bench.model->dt()));
     }
-    if (bonded && bench.statistics.outside > 0) {
-        out.push_back(fmt::format("{} spheres reach beyond the specimen's nominal surface.", bench.statistics.outside));
-    }
-    if (deck.material.values.status == "provisional") {
-        out.push_back("The material card is provisional: " + deck.material.values.about + ".");
-    }
+    const auto of_deck = warnings_of_deck(deck);
+    out.insert(out.end(), of_deck.begin(), of_deck.end());
     return out;
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "core/files/whole_file.hpp"
+#include "lab/checks.hpp"
 #include "lab/clock.hpp"
 #include "lab/fields.hpp"
 #include "lab/keeper.hpp"
@@ -135,6 +136,9 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     const auto before_set_up = Clock::now();
     Bench bench = set_up(deck, std::move(specimen));
     log_set_up(bench, since(before_set_up), watch);
+    for (const auto& warning : passage == Passage::begin ? warnings_in_press(bench, deck) : std::vector<std::string>{}) {
+        watch.warn(warning);
+    }
 
     if (passage == Passage::begin && interrupted()) {
         throw StoppedBefore();
@@ -240,6 +244,13 @@ RunStatus make_and_test(const Deck& deck, const RunOptions& options) {
             spdlog::info("{}", line);
         }
     };
+    const auto warn = [&](const std::string& line) {
+        progress.end_line();
+        spdlog::warn("{}", line);
+    };
+    for (const auto& warning : options.passage == Passage::begin ? warnings_of_deck(deck) : std::vector<std::string>{}) {
+        warn(warning);
+    }
     Specimen specimen = obtain_specimen(deck.specimen, deck.folder, deck.source, [&](double done) {
         if (options.passage == Passage::begin && interrupted()) {
             throw StoppedBefore();
@@ -255,7 +266,7 @@ RunStatus make_and_test(const Deck& deck, const RunOptions& options) {
         progress.show(phase == "loading" ? figures : phase + ": " + figures);
     };
     const Finished finished = with_way_on(out, [&] {
-        return carry_out(deck, std::move(specimen), out, options.command, {show, log}, options.passage);
+        return carry_out(deck, std::move(specimen), out, options.command, {show, log, warn}, options.passage);
     });
     progress.end_line();
     fmt::print("{}", as_text(finished.record));

@@ -37,6 +37,7 @@ struct RunWatch {
     /// phase: what is going on, "loading" or "half-rate check"; figures: strain, stress and so on; done: share of the phase, 0 to 1.
     std::function<void(const std::string& phase, const std::string& figures, double done)> progress;
     std::function<void(const std::string& line)> log;
+    std::function<void(const std::string& line)> warn; ///< what the user should know of the specimen in the press, where a test begins
 };
 
 /// A test that was carried out and whose folder is written.

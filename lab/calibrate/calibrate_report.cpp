@@ -9,6 +9,7 @@
 
 #include "lab/citation.hpp"
 #include "lab/provenance.hpp"
+#include "lab/trials/verdicts.hpp"
 
 namespace proveta {
 
@@ -329,15 +330,15 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
     r.tables.push_back(statement_table(targets));
     r.tables.push_back({"Provenance",
                         {{"What", "Value"},
-                         {"Program", "Proveta " + version()},
+                         {"Program", version_text()},
                          {"Calibration", plan.source},
                          {"Every trial", "ledger.jsonl, trials.csv and the folders in trials"},
                          {"To repeat", "proveta calibrate manifest.json --out NEW_FOLDER"}}});
     return r;
 }
 
-input::Json calibration_summary(const CalibrationPlan& plan, const std::vector<Target>& targets, const report::Record& record,
-                                const input::Json& card) {
+input::Json calibration_summary(const CalibrationPlan& plan, const std::vector<Target>& targets, const CalibrationOutcome& outcome,
+                                const report::Record& record, const input::Json& card) {
     input::Json j{{"title", plan.input.title}, {"status", record.status}, {"stopped_by", record.stopped_by}};
     for (const auto& s : record.results) {
         j["results"][s.name] = {{"value", s.value ? input::Json(*s.value) : input::Json()}, {"unit", s.unit}, {"formula", s.formula}};
@@ -351,6 +352,7 @@ input::Json calibration_summary(const CalibrationPlan& plan, const std::vector<T
                                    {"warnings", t.file.warnings}});
         }
     }
+    j["verdicts"] = verdicts_of({outcome.best_trial().result, outcome.predictions});
     j["evidence"] = card["evidence"];
     j["warnings"] = record.warnings;
     return j;

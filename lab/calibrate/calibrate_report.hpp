@@ -15,7 +15,7 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
                                   const TrialFolders& folders);
 
 /// summary.json.
-input::Json calibration_summary(const CalibrationPlan& plan, const std::vector<Target>& targets, const report::Record& record,
-                                const input::Json& card);
+input::Json calibration_summary(const CalibrationPlan& plan, const std::vector<Target>& targets, const CalibrationOutcome& outcome,
+                                const report::Record& record, const input::Json& card);
 
 } // namespace proveta

@@ -8,6 +8,7 @@
 #include "core/input/suggest.hpp"
 #include "core/input/text_file.hpp"
 #include "core/input/units.hpp"
+#include "lab/calibrate/residuals.hpp"
 #include "lab/provenance.hpp"
 #include "lab/results.hpp"
 #include "lab/trials/decks.hpp"
@@ -58,7 +59,7 @@ void declare(input::Visitor& v, TargetInput& t) {
 
 void declare(input::Visitor& v, SearchInput& s) {
     v.number("spheres", s.spheres, Unit::none, {0.0, 1.0, true, false},
-             "spheres of the specimens that the search runs on, over those of the decks");
+             "spheres of the specimens that the search runs on, over those of the decks; stored and loose specimens stay whole");
     v.integer("seeds", s.seeds, 1, 100, "specimens of each test that the search runs on, the first of its seeds");
     v.integer("trials", s.trials, 1, 100000, "trials of the search");
     v.integer("batch", s.batch, 1, 1000,
@@ -230,7 +231,8 @@ CalibrationPlan read_calibration(const std::string& file) {
     }
     plan.written = json;
     input::Problems problems;
-    plan.tests = take_tests(json, plan.source, problems, begun.is_object() ? begun.value("decks", Json()) : Json());
+    plan.tests =
+        take_tests(json, plan.source, problems, {true, begun.is_object(), begun.is_object() ? begun.value("decks", Json()) : Json()});
     input::read(json, plan.input, file, "", problems);
     auto& in = plan.input;
     std::vector<Json> decks;
@@ -272,6 +274,11 @@ CalibrationPlan read_calibration(const std::string& file) {
         check_decks(plan.space, plan.tests, bounds, file, problems);
     }
     if (!problems.empty()) {
+        try { // what is wrong with the curves belongs to the same list
+            make_targets(plan);
+        } catch (const input::InputError& error) {
+            problems.insert(problems.end(), error.problems.begin(), error.problems.end());
+        }
         throw input::InputError(problems);
     }
     return plan;

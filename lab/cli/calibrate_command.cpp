@@ -13,6 +13,7 @@
 #include "lab/cli/commands.hpp"
 #include "lab/output_folder.hpp"
 #include "lab/provenance.hpp"
+#include "lab/trials/decks.hpp"
 #include "lab/trials/launch.hpp"
 #include "reports/files.hpp"
 #include "reports/html.hpp"
@@ -68,7 +69,7 @@ std::string write_results(const OutputFolder& out, const CalibrationPlan& plan, 
     const report::Record record = calibration_record(plan, targets, outcome, folders);
     report::write_file(out.file("trials.csv"), report::to_csv(trials_table(plan, targets, outcome, folders)));
     report::write_file(out.file("report.html"), report::to_html(record));
-    report::write_json(out.file("summary.json"), calibration_summary(plan, targets, record, card));
+    report::write_json(out.file("summary.json"), calibration_summary(plan, targets, outcome, record, card));
     report::write_json(out.file("card.json"), card);
     std::string text = fmt::format("{}: {}\n", record.title, record.stopped_by);
     for (const auto& table : record.overview) {
@@ -95,8 +96,16 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
         return show_status(out);
     }
     use_threads(a.threads);
-    const CalibrationPlan plan = read_calibration(a.file);
-    const auto targets = make_targets(plan);
+    Looks looks;
+    CalibrationPlan plan;
+    std::vector<Target> targets;
+    const bool read = looks.at([&] {
+        plan = read_calibration(a.file);
+        targets = make_targets(plan);
+    });
+    if (a.begins()) {
+        looks.at_folder(a.out);
+    }
     for (const auto& t : targets) {
         for (const auto& note : t.file.notes) {
             spdlog::info("{}: {}", t.input.title(), note);
@@ -104,6 +113,14 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
         for (const auto& warning : t.file.warnings) {
             spdlog::warn("{}: {}", t.input.title(), warning);
         }
+    }
+    if (a.begins() && read) {
+        looks.at([&] { look_at_specimens(plan.space, plan.tests, plan.source); });
+    }
+    looks.settle();
+    if (a.check) {
+        fmt::print("{}: no problems; a calibration of {} parameters to {} targets\n", a.file, plan.space.size(), targets.size());
+        return 0;
     }
     OutputFolder folder(out);
     catch_interrupts();
@@ -115,6 +132,9 @@ int carry_out_calibration(const TrialsArguments& a, const std::string& typed) {
     };
     if (!a.report) { // which changes nothing before it has succeeded
         write_manifest("running");
+    }
+    if (const std::string others = book.of_other_physics(); !others.empty()) {
+        spdlog::warn("{}", others);
     }
     if (book.known() > 0 && !a.quiet) {
         spdlog::info("{} trials are in the ledger and will not be repeated", book.known());

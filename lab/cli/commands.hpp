@@ -20,7 +20,7 @@ void add_resume(CLI::App& app, const std::string& typed, Command& chosen);
 void add_report(CLI::App& app, const std::string& typed, Command& chosen);
 void add_compare(CLI::App& app, const std::string& typed, Command& chosen);
 void add_plot(CLI::App& app, Command& chosen);
-void add_check(CLI::App& app, Command& chosen);
+void add_check(CLI::App& app, const std::string& typed, Command& chosen);
 void add_describe(CLI::App& app, Command& chosen);
 void add_schema(CLI::App& app, Command& chosen);
 void add_specimen(CLI::App& app, Command& chosen);
@@ -39,6 +39,30 @@ struct RunArguments {
     std::string out;
     int threads = 0;
     bool quiet = false;
+    bool check = false; ///< only say what can be told before anything runs
+};
+
+/// Looks at one thing after the other, so that the problems of all of them are said at once.
+class Looks {
+  public:
+    /// Whether nothing is wrong with what `look` looks at.
+    template <class Look> bool at(const Look& look) {
+        try {
+            look();
+            return true;
+        } catch (const input::InputError& error) {
+            problems_.insert(problems_.end(), error.problems.begin(), error.problems.end());
+            return false;
+        }
+    }
+    /// At a folder that the user named for the results; leaves nothing there.
+    void at_folder(const std::string& out);
+    [[nodiscard]] bool good() const { return problems_.empty(); }
+    /// Throws InputError with all problems, if there are any.
+    void settle() const;
+
+  private:
+    input::Problems problems_;
 };
 
 /// Adds --threads.
@@ -47,7 +71,7 @@ void add_threads(CLI::App& command, RunArguments& a);
 /// Adds --set and --threads.
 void add_settings(CLI::App& command, RunArguments& a);
 
-/// Adds --out and --quiet. folder: what the help says of the default of --out.
+/// Adds --out, --quiet and --check. folder: what the help says of the default of --out.
 void add_output(CLI::App& command, RunArguments& a, const std::string& folder);
 
 /// Arguments of the commands whose trials go through a ledger.
@@ -58,12 +82,21 @@ struct TrialsArguments : RunArguments {
     bool collect = false;
     bool report = false; ///< all of it is there: only what is written at the end is written anew
 
+    /// Whether the tests are about to be carried out, here or elsewhere.
+    [[nodiscard]] bool begins() const { return !status && !collect && !report; }
     [[nodiscard]] BookMode mode() const { return report ? BookMode::report : plan || collect ? BookMode::plan : BookMode::run; }
 };
 
 /// Adds the file (what it is called, "sweep"), --threads, --out, --quiet, --status, --plan and --collect.
 void add_trials(CLI::App& command, TrialsArguments& a, const std::string& what, const std::string& folder);
 
+/// A scene's file and options.
+struct SceneArguments : RunArguments {
+    std::string file;
+};
+
+/// Plays a scene and returns the exit code.
+int play(const SceneArguments& a, const std::string& typed);
 /// Carries a sweep out and returns the exit code.
 int carry_out_sweep(const TrialsArguments& a, const std::string& typed);
 /// Carries a calibration out and returns the exit code.

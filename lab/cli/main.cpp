@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
     proveta::add_report(app, typed, chosen);
     proveta::add_compare(app, typed, chosen);
     proveta::add_plot(app, chosen);
-    proveta::add_check(app, chosen);
+    proveta::add_check(app, typed, chosen);
     proveta::add_describe(app, chosen);
     proveta::add_schema(app, chosen);
     proveta::add_specimen(app, chosen);

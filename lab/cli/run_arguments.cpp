@@ -2,6 +2,7 @@
 #include <omp.h>
 
 #include "lab/cli/commands.hpp"
+#include "lab/output_folder.hpp"
 #include "lab/progress.hpp"
 
 namespace proveta {
@@ -19,6 +20,19 @@ void add_settings(CLI::App& command, RunArguments& a) {
 void add_output(CLI::App& command, RunArguments& a, const std::string& folder) {
     command.add_option("--out", a.out, "result folder (default: " + folder + ")");
     command.add_flag("--quiet", a.quiet, "no progress, no log but warnings and errors");
+    command.add_flag("--check", a.check, "report all problems that can be told without running anything");
+}
+
+void Looks::at_folder(const std::string& out) {
+    if (!out.empty()) {
+        at([&] { OutputFolder look(out); });
+    }
+}
+
+void Looks::settle() const {
+    if (!problems_.empty()) {
+        throw input::InputError(problems_);
+    }
 }
 
 void add_trials(CLI::App& command, TrialsArguments& a, const std::string& what, const std::string& folder) {
@@ -29,6 +43,8 @@ void add_trials(CLI::App& command, TrialsArguments& a, const std::string& what, 
     auto* plan = command.add_flag("--plan", a.plan, "carry nothing out here: write the next trials, and scripts that do it elsewhere");
     auto* collect =
         command.add_flag("--collect", a.collect, "take in what was carried out elsewhere; when all is there, results and report");
+    auto* check = command.get_option("--check");
+    check->excludes(status)->excludes(plan)->excludes(collect);
     status->excludes(plan)->excludes(collect);
     plan->excludes(collect);
 }

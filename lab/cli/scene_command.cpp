@@ -1,5 +1,6 @@
 // proveta scene
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <memory>
@@ -10,14 +11,25 @@
 
 namespace proveta {
 
-namespace {
-
-struct SceneArguments : RunArguments {
-    std::string file;
-    bool check = false;
-};
-
-} // namespace
+int play(const SceneArguments& a, const std::string& typed) {
+    use_threads(a.threads);
+    Looks looks;
+    Scene scene;
+    const bool read = looks.at([&] { scene = read_scene(a.file, a.settings); });
+    looks.at_folder(a.out);
+    if (read && (a.check || !looks.good())) { // else the run says it, as soon
+        looks.at([&] { try_scene(scene); });
+    }
+    looks.settle();
+    if (a.check) {
+        fmt::print("{}: no problems; a scene of {} surfaces and {} kinds of particles\n", a.file, scene.surfaces.size(),
+                   scene.particles.size());
+        return 0;
+    }
+    const RunOptions options{a.out.empty() ? "results/" + result_name(a.file, "scene") : a.out, typed, a.quiet};
+    catch_interrupts();
+    return exit_code(run_scene(scene, options));
+}
 
 void add_scene(CLI::App& app, const std::string& typed, Command& chosen) {
     auto a = std::make_shared<SceneArguments>();
@@ -25,22 +37,7 @@ void add_scene(CLI::App& app, const std::string& typed, Command& chosen) {
     command->add_option("file", a->file, "scene (JSON), or the manifest.json of an earlier one")->required();
     add_settings(*command, *a);
     add_output(*command, *a, "results/NAME of the scene");
-    command->add_flag("--check", a->check, "report all problems without running it");
-    command->callback([a, typed, &chosen] {
-        chosen = [a, typed] {
-            use_threads(a->threads);
-            const Scene scene = read_scene(a->file, a->settings);
-            if (a->check) {
-                try_scene(scene);
-                fmt::print("{}: no problems; a scene of {} surfaces and {} kinds of particles\n", a->file, scene.surfaces.size(),
-                           scene.particles.size());
-                return 0;
-            }
-            const RunOptions options{a->out.empty() ? "results/" + result_name(a->file, "scene") : a->out, typed, a->quiet};
-            catch_interrupts();
-            return exit_code(run_scene(scene, options));
-        };
-    });
+    command->callback([a, typed, &chosen] { chosen = [a, typed] { return play(*a, typed); }; });
 }
 
 } // namespace proveta

@@ -21,7 +21,18 @@ int carry_out_study(const StudyArguments& a, const char* name, const std::string
     use_threads(a.threads);
     StudyRequest request = a.request;
     request.settings = a.settings;
-    const Plan plan = plan_study(request);
+    Looks looks;
+    Plan plan;
+    const bool read = looks.at([&] { plan = plan_study(request); });
+    looks.at_folder(a.out);
+    if (read && (a.check || !looks.good())) { // else the series says it first
+        looks.at([&] { check_members(plan); });
+    }
+    looks.settle();
+    if (a.check) {
+        fmt::print("{}: no problems; a study of {} tests\n", a.request.deck, plan.members.size());
+        return 0;
+    }
     const std::string stem = result_name(a.request.deck, "test");
     const RunOptions options{a.out.empty() ? fmt::format("results/{}-{}-study", stem, name) : a.out, typed, a.quiet};
     catch_interrupts();

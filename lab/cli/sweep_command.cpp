@@ -8,13 +8,27 @@
 #include "lab/cli/commands.hpp"
 #include "lab/progress.hpp"
 #include "lab/sweep/run_sweep.hpp"
+#include "lab/trials/decks.hpp"
 #include "lab/trials/launch.hpp"
 
 namespace proveta {
 
 int carry_out_sweep(const TrialsArguments& a, const std::string& typed) {
     use_threads(a.threads);
-    const Sweep sweep = read_sweep(a.file);
+    Looks looks;
+    Sweep sweep;
+    const bool read = looks.at([&] { sweep = read_sweep(a.file); });
+    if (a.begins()) {
+        looks.at_folder(a.out);
+        if (read) {
+            looks.at([&] { look_at_specimens(sweep.space, sweep.tests, a.file); });
+        }
+    }
+    looks.settle();
+    if (a.check) {
+        fmt::print("{}: no problems; a sweep of {} points, {} tests each\n", a.file, sweep.points.size(), sweep.tests.size());
+        return 0;
+    }
     SweepOptions options{a.out, typed, a.threads, a.quiet, a.mode()};
     if (options.out.empty()) {
         options.out = fmt::format("results/{}-sweep", result_name(a.file, "manifest"));

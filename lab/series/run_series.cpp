@@ -10,9 +10,11 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <set>
 #include <thread>
 
 #include "core/files/whole_file.hpp"
+#include "lab/checks.hpp"
 #include "lab/keeper.hpp"
 #include "lab/progress.hpp"
 #include "lab/provenance.hpp"
@@ -89,37 +91,91 @@ std::string origin_of(const Deck& deck) {
                                : std::filesystem::weakly_canonical(std::filesystem::path(deck.folder) / recipe.file).string();
 }
 
-// Makes or loads the specimens and puts every member into its press once: what a deck and its specimen contradict is found before any of
-// the tests begins, and takes a thousandth of their time. An interrupt leaves the rest out.
-Specimens make_ready(const Plan& plan, Board& board) {
-    Specimens out;
-    std::map<std::string, std::shared_ptr<const Specimen>> made;
-    std::vector<MemberProblem> problems;
-    out.of.resize(plan.members.size());
-    out.hashes.resize(plan.members.size());
-    for (std::size_t k = 0; k < plan.members.size() && !interrupted(); ++k) {
-        const std::string& name = plan.members[k].name;
-        const Deck& deck = plan.members[k].deck;
-        try {
-            auto& specimen = made[origin_of(deck)];
-            if (!specimen) {
-                specimen = std::make_shared<const Specimen>(obtain_specimen(deck.specimen, deck.folder, deck.source, [&](double done) {
-                    board.preparing(fmt::format("making the specimen of {}  {:.0f} %", name, 100.0 * done));
-                }));
-            }
-            board.preparing("setting up " + name);
-            out.hashes[k] = hex(set_up(deck, *specimen).specimen_hash);
-            out.of[k] = specimen;
-            out.largest = std::max(out.largest, specimen->size());
-        } catch (const input::InputError& error) {
-            for (const auto& problem : error.problems) {
-                problems.push_back({problem, {}});
+// Warnings of members, each said once.
+class Warnings {
+  public:
+    explicit Warnings(const Plan& plan) : single_(!plan.series) {}
+    void say(const Member& member, const std::vector<std::string>& warnings) {
+        for (const auto& warning : warnings) {
+            if (said_.insert(warning).second) {
+                spdlog::warn("{}{}", single_ ? "" : member.name + ": ", warning);
             }
         }
     }
-    if (!problems.empty()) {
-        throw input::InputError(merged(problems));
+
+  private:
+    bool single_;
+    std::set<std::string> said_;
+};
+
+// Each member's problems, merged, where there are any.
+class MemberProblems {
+  public:
+    template <class Work> void of(const Work& work) {
+        try {
+            work();
+        } catch (const input::InputError& error) {
+            for (const auto& problem : error.problems) {
+                problems_.push_back({problem, {}});
+            }
+        }
     }
+    void settle() const {
+        if (!problems_.empty()) {
+            throw input::InputError(merged(problems_));
+        }
+    }
+
+  private:
+    std::vector<MemberProblem> problems_;
+};
+
+// Makes or loads the specimens and puts every member into its press once: what a deck and its specimen contradict is found before any of
+// the tests begins, and takes a thousandth of their time. What can be told without making specimens comes first. An interrupt leaves the
+// rest out. warn: of what the user should know.
+Specimens make_ready(const Plan& plan, Board& board, bool warn) {
+    Specimens out;
+    std::map<std::string, std::shared_ptr<const Specimen>> made;
+    MemberProblems problems;
+    Warnings warnings(plan);
+    out.of.resize(plan.members.size());
+    out.hashes.resize(plan.members.size());
+    const auto set_up_member = [&](std::size_t k) {
+        const auto& [name, deck] = plan.members[k];
+        auto& specimen = made[origin_of(deck)];
+        if (!specimen) {
+            const auto progress = [&, name = name](double done) {
+                board.preparing(fmt::format("making the specimen of {}  {:.0f} %", name, 100.0 * done));
+            };
+            specimen = std::make_shared<const Specimen>(obtain_specimen(deck.specimen, deck.folder, deck.source, progress));
+        }
+        board.preparing("setting up " + name);
+        const Bench bench = set_up(deck, *specimen);
+        out.hashes[k] = hex(bench.specimen_hash);
+        out.of[k] = specimen;
+        out.largest = std::max(out.largest, specimen->size());
+        if (warn) {
+            warnings.say(plan.members[k], warnings_of_deck(deck));
+            warnings.say(plan.members[k], warnings_in_press(bench, deck));
+        }
+    };
+    const auto stored = [&](std::size_t k) { return !plan.members[k].deck.specimen.file.empty(); };
+    for (std::size_t k = 0; k < plan.members.size() && !interrupted(); ++k) {
+        problems.of([&] {
+            if (stored(k)) {
+                set_up_member(k);
+            } else if (const auto known = check_before(plan.members[k].deck); warn) {
+                warnings.say(plan.members[k], known);
+            }
+        });
+    }
+    problems.settle();
+    for (std::size_t k = 0; k < plan.members.size() && !interrupted(); ++k) {
+        if (!stored(k)) {
+            problems.of([&] { set_up_member(k); });
+        }
+    }
+    problems.settle();
     board.log(fmt::format("{} {} for {} tests", made.size(), made.size() == 1 ? "specimen" : "specimens", plan.members.size()));
     return out;
 }
@@ -198,7 +254,8 @@ std::vector<MemberResult> run_members(const Plan& plan, const Specimens& specime
             const auto show = [&](const std::string& phase, const std::string&, double done) { board.show(k, phase, done); };
             RunOptions own = options;
             own.passage = again[k] ? Passage::begin : options.passage;
-            results[k] = run_member(plan.members[k], *specimens.of[k], *folders[k], own, {show, [](const std::string&) {}});
+            results[k] = run_member(plan.members[k], *specimens.of[k], *folders[k], own,
+                                    {show, [](const std::string&) {}, [](const std::string&) {}});
             board.ended(k, results[k]);
         }
     };
@@ -260,7 +317,7 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
     const std::string started = now_utc();
     const std::string folder = out.path().string();
     Board board(plan, options.quiet);
-    const Specimens specimens = make_ready(plan, board);
+    const Specimens specimens = make_ready(plan, board, options.passage == Passage::begin);
     const auto write_manifest = [&](const std::string& status) {
         auto sheet = series_manifest(plan, specimens.hashes, options.command, status, started, folder);
         out.write_manifest(options.passage == Passage::report ? with_beginning_of(out.file("manifest.json"), std::move(sheet)) : sheet);
@@ -310,6 +367,15 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
 }
 
 } // namespace
+
+void check_members(const Plan& plan) {
+    MemberProblems problems;
+    Warnings warnings(plan);
+    for (const auto& member : plan.members) {
+        problems.of([&] { warnings.say(member, check_before(member.deck)); });
+    }
+    problems.settle();
+}
 
 RunStatus run_series(const Plan& plan, const RunOptions& options, int threads, const SeriesStudy& study) {
     OutputFolder out(options.out);

@@ -19,6 +19,10 @@ struct SeriesExtra {
 };
 using SeriesStudy = std::function<SeriesExtra(const std::vector<MemberResult>&)>;
 
+/// Says, on stderr, what the user should know of the tests of a plan, a series or one, before they run. Throws InputError with all problems
+/// that can be told without making a specimen.
+void check_members(const Plan& plan);
+
 /// Carries out the members of a series, several at once as threads and memory allow, each in a folder of its own within the series' folder,
 /// where it leaves the same bytes as by itself; writes what the series says as a whole, and prints it on stdout. threads: of all members
 /// together. Members of one recipe share a specimen. A member that fails does not stop the others; an interrupt stops all. study: adds

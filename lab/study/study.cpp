@@ -80,6 +80,11 @@ Plan plan_study(const StudyRequest& request) {
         problems.push_back({request.deck, "/specimen/file", "\"" + own.specimen.file + "\"", "a recipe, of which specimens can be made",
                             "a stored specimen has one size and one packing"});
     }
+    if (request.kind == StudyKind::step && own.numerics.time_step.word.empty()) {
+        problems.push_back({request.deck, "/numerics/time_step", fmt::format("{:.6g} s", own.numerics.time_step.number),
+                            "\"auto\", or no such key: the study sets the step, as a share of the stable one",
+                            "--set numerics.time_step=auto"});
+    }
     const auto values = request.values.empty() ? usual_values(request.kind, own, resolved(own)) : request.values;
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (std::count(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values[k]) > 0) {

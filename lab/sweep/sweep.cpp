@@ -7,6 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/input/suggest.hpp"
+#include "lab/results.hpp"
 #include "lab/trials/decks.hpp"
 
 namespace proveta {
@@ -28,6 +30,28 @@ std::vector<std::string> take_results(Json& json, const std::string& file, input
         return out;
     }
     return list.get<std::vector<std::string>>();
+}
+
+// Names that no test can give are said before anything runs.
+void check_results(const Sweep& sweep, const std::string& file, input::Problems& problems) {
+    std::vector<std::string> known;
+    for (const auto& test : sweep.tests) {
+        for (const auto& result : possible_results(read_deck(test.deck, file))) {
+            known.push_back(result.name);
+        }
+    }
+    for (std::size_t k = 0; k < sweep.results.size() && !known.empty(); ++k) {
+        const std::string& name = sweep.results[k];
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+            const std::string best = input::nearest(name, known);
+            std::vector<std::string> names = known;
+            std::sort(names.begin(), names.end());
+            names.erase(std::unique(names.begin(), names.end()), names.end());
+            problems.push_back({file, fmt::format("/results/{}", k), "\"" + name + "\"",
+                                fmt::format("a result of one of the tests: {}", fmt::join(names, ", ")),
+                                best.empty() ? "" : "did you mean \"" + best + "\"?"});
+        }
+    }
 }
 
 // Levels of a parameter of a grid: its own values.
@@ -125,14 +149,17 @@ Sweep read_sweep(const std::string& file) {
     input::Problems problems;
     Json json = input::load_json(file);
     Json begun_with;
+    TestRules rules;
     if (json.is_object() && json.contains("proveta_sweep_manifest")) {
+        rules.begun = true;
         begun_with = json.value("files", Json::object());
         json = json.value("sweep", Json());
     }
     Sweep sweep;
-    sweep.tests = take_tests(json, file, problems);
+    sweep.tests = take_tests(json, file, problems, rules);
     sweep.files = begun_with.is_object() ? begun_with : hashes_of(sweep.tests);
     sweep.results = take_results(json, file, problems);
+    check_results(sweep, file, problems);
     input::read(json, sweep.input, file, "", problems);
     check_keys(sweep.input, file, problems);
     std::vector<Json> decks;

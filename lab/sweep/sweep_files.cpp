@@ -6,6 +6,7 @@
 
 #include "lab/progress.hpp"
 #include "lab/sweep/sweep_report.hpp"
+#include "lab/trials/verdicts.hpp"
 
 namespace proveta {
 
@@ -53,6 +54,7 @@ Json sweep_summary(const Sweep& sweep, const SweepOutcome& o, const report::Reco
         }
         j["results"].push_back(std::move(one));
     }
+    j["verdicts"] = verdicts_of(o.table.trials);
     j["warnings"] = record.warnings;
     return j;
 }

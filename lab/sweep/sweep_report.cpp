@@ -9,6 +9,7 @@
 
 #include "lab/citation.hpp"
 #include "lab/sweep/sweep_plots.hpp"
+#include "lab/trials/verdicts.hpp"
 
 namespace proveta {
 
@@ -26,13 +27,17 @@ report::TextTable parameter_table(const Sweep& sweep) {
     return t;
 }
 
-report::TextTable test_table(const Sweep& sweep) {
-    report::TextTable t{"Tests of each point", {{"Test", "Kind", "Spheres", "Seeds"}}};
+report::TextTable test_table(const Sweep& sweep, const SweepTable& table) {
+    report::TextTable t{"Tests of each point", {{"Test", "Kind", "Spheres", "Seeds", "Quasi-static"}}};
+    const auto verdicts = verdicts_of(table.trials);
     for (const auto& test : sweep.tests) {
         const auto& specimen = test.deck["specimen"];
         t.rows.push_back({test.name, test.deck["test"],
-                          test.seeds.empty() ? "stored specimen" : fmt::format("{}", specimen["spheres"].dump()),
-                          fmt::format("{}", fmt::join(test.seeds, ", "))});
+                          test.seeds.empty()             ? "stored specimen"
+                          : specimen.contains("spheres") ? specimen["spheres"].dump()
+                                                         : "loose particles",
+                          fmt::format("{}", fmt::join(test.seeds, ", ")),
+                          verdicts.contains(test.name) ? input::text_at(verdicts[test.name], "verdict") : "no test complete"});
     }
     return t;
 }
@@ -208,7 +213,7 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
     }
     r.key_figures = first_figures(sweep, o);
     r.citation = citation("Sweep", sweep.input.title, resolved(sweep));
-    r.overview = {parameter_table(sweep), test_table(sweep)};
+    r.overview = {parameter_table(sweep), test_table(sweep, o.table)};
     for (const auto& test : sweep.tests) { // what belongs to a test stands together
         const auto curves = std::find_if(o.curves.begin(), o.curves.end(), [&](const auto& c) { return c.test == test.name; });
         if (curves != o.curves.end() && curves->sensitivity) {

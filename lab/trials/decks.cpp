@@ -1,11 +1,13 @@
 #include "lab/trials/decks.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "lab/checks.hpp"
 #include "lab/deck.hpp"
 
 namespace proveta {
@@ -32,7 +34,9 @@ Json deck_for(const TrialTest& test, std::int64_t seed, double share) {
     if (!test.seeds.empty()) {
         auto& specimen = deck["specimen"];
         specimen["seed"] = seed;
-        specimen["spheres"] = std::max<std::int64_t>(fewest_spheres, std::llround(share * specimen["spheres"].get<double>()));
+        if (specimen.contains("spheres")) { // loose particles fill their cylinder
+            specimen["spheres"] = std::max<std::int64_t>(fewest_spheres, std::llround(share * specimen["spheres"].get<double>()));
+        }
     }
     return deck;
 }
@@ -74,6 +78,30 @@ void check_decks(const ParameterSpace& space, const std::vector<TrialTest>& test
             check(values, fmt::format("{} = {:.6g}, the others in the middle", space[k].name, values[k]),
                   place(space[k], k, values[k], level));
         }
+    }
+}
+
+void look_at_specimens(const ParameterSpace& space, const std::vector<TrialTest>& tests, const std::string& file) {
+    input::Problems problems;
+    std::set<std::string> said;
+    const auto middle = space.values(std::vector<double>(space.size(), 0.5));
+    for (const auto& test : tests) {
+        const Job job = job_for(test, test.seeds.empty() ? 0 : test.seeds.front(), 1.0, space, middle);
+        try {
+            for (const auto& warning : check_before(read_deck(job.deck, file))) {
+                if (said.insert(warning).second) {
+                    spdlog::warn("{}: {}", test.name, warning);
+                }
+            }
+        } catch (const input::InputError& error) {
+            for (const auto& p : error.problems) {
+                problems.push_back(
+                    {file, "/tests", fmt::format("{} of test \"{}\" is {}", p.path, test.name, p.found), p.expected, p.suggestion});
+            }
+        }
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
     }
 }
 

@@ -36,11 +36,78 @@ bool is_name(const std::string& name) {
 
 void declare(input::Visitor& v, TestKeys& k) {
     v.text("name", k.name, "what the test is called; letters, digits, '_', '-' and '.'");
-    v.numbers("seeds", k.seeds, 0, input::Unit::none, input::between(0, 9e15), "seeds of its specimens; results are means over them");
+    v.numbers("seeds", k.seeds, 0, input::Unit::none, input::between(0, 9e15),
+              "seeds of its specimens, by default that of its deck; results are means over them");
     v.number("weight", k.weight, input::Unit::none, input::above(0), "weight of its targets in a calibration");
 }
 
-std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Problems& problems, const Json& decks_begun_with) {
+namespace {
+
+const Json* value_at(const Json& json, const std::string& path) {
+    const Json::json_pointer pointer(path);
+    return json.is_object() && json.contains(pointer) ? &json[pointer] : nullptr;
+}
+
+// Where a key of a test's deck was written.
+struct Places {
+    const Json& common;
+    const Json& own;
+    std::string file, source, at; // the sweep or calibration, the deck's file, and the test in the former
+
+    // A problem of a key that somebody wrote.
+    [[nodiscard]] input::Problem problem(const std::string& key, const std::string& expected, const std::string& hint) const {
+        const bool is_own = value_at(own, key) != nullptr;
+        const std::string where = is_own ? (source == file ? at + "/deck" : std::string()) : "/deck";
+        return {is_own ? source : file, where + key, value_at(is_own ? own : common, key)->dump(), expected, hint};
+    }
+};
+
+// Trials keep curve and results: what `proveta run` writes besides is refused where somebody asks for it. The decks keep its defaults, with
+// which `proveta run` shows a trial.
+void check_output(const TrialTest& test, const Places& places, input::Problems& problems) {
+    for (const auto& [key, hint] : {std::pair{"fields", "proveta run trials/KEY/JOB/deck.json writes those of one trial"},
+                                    {"pictures", "proveta run trials/KEY/JOB/deck.json draws those of one trial"},
+                                    {"checkpoint_every", "a test that is stopped begins anew; those that have ended are kept"}}) {
+        const std::string path = std::string("/output/") + key;
+        if (value_at(test.written, path) == nullptr || test.deck["output"][key] == 0) {
+            continue;
+        }
+        const auto problem = places.problem(path, "0, or no such key: the tests of sweeps and calibrations write none", hint);
+        if (std::none_of(problems.begin(), problems.end(), [&](const auto& p) { return p.text() == problem.text(); })) {
+            problems.push_back(problem); // what all tests share is said once
+        }
+    }
+}
+
+// The seeds of a test's specimens, none for a stored one.
+std::vector<std::int64_t> seeds_of(const TrialTest& test, const TestKeys& keys, bool given, const Places& places,
+                                   input::Problems& problems) {
+    std::vector<std::int64_t> out;
+    if (!test.deck["specimen"].value("file", "").empty()) {
+        if (given) {
+            problems.push_back(
+                {places.file, places.at + "/seeds", "seeds of a stored specimen", "no such key", "a recipe makes a specimen of each seed"});
+        }
+        return out;
+    }
+    if (!given) {
+        return {test.deck["specimen"]["seed"].get<std::int64_t>()};
+    }
+    for (const double seed : keys.seeds) {
+        out.push_back(std::llround(seed));
+    }
+    const Json* own = value_at(test.written, "/specimen/seed");
+    if (own != nullptr && std::find(out.begin(), out.end(), own->get<std::int64_t>()) == out.end()) {
+        problems.push_back(
+            places.problem("/specimen/seed", fmt::format("no such key, or one of the test's \"seeds\": {}", fmt::join(out, ", ")), ""));
+    }
+    return out;
+}
+
+} // namespace
+
+std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Problems& problems, const TestRules& rules) {
+    const Json& decks_begun_with = rules.decks_begun_with;
     std::vector<TrialTest> out;
     const auto complain = [&](const std::string& path, const std::string& found, const std::string& expected,
                               const std::string& hint = "") {
@@ -85,11 +152,14 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
             complain(at + "/deck", "nothing", "a deck, or the name of its file");
             continue;
         }
+        if (rest.contains("weight") && !rules.targets) {
+            complain(at + "/weight", rest["weight"].dump(), "no such key: a sweep has no targets to weigh");
+        }
         TrialTest test{keys.name, {}, common, {}, keys.weight, {}};
         const bool own_file = tests[k]["deck"].is_string();
+        std::string source = file;
+        Json deck = tests[k]["deck"];
         try {
-            std::string source = file;
-            Json deck = tests[k]["deck"];
             if (own_file) {
                 source = (folder / deck.get<std::string>()).lexically_normal().string();
                 deck = input::load_json(source);
@@ -108,10 +178,10 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
             keep(error, file, at + "/deck", own_file, problems);
             continue;
         }
-        if (test.deck["specimen"].value("file", "").empty()) {
-            for (const double seed : keys.seeds) {
-                test.seeds.push_back(std::llround(seed));
-            }
+        const Places places{common, deck, file, source, at};
+        test.seeds = seeds_of(test, keys, rest.contains("seeds"), places, problems);
+        if (!rules.begun) {
+            check_output(test, places, problems);
         }
         out.push_back(std::move(test));
     }

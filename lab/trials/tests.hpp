@@ -26,11 +26,17 @@ struct TestKeys {
 };
 void declare(input::Visitor& v, TestKeys& keys);
 
+/// What is asked of "tests".
+struct TestRules {
+    bool targets = false;              ///< there are targets, which weights are for
+    bool begun = false;                ///< they are read from a manifest, whose decks have every value filled in
+    input::Json decks_begun_with = {}; ///< resolved decks by the names of their tests, which count instead of what is written
+};
+
 /// Takes "deck" (what all tests share) and "tests" out of the JSON of a sweep or a calibration and reads them. A test's "deck" is an object
-/// or the name of a file, relative to the file that is read. decks_begun_with: resolved decks by the names of their tests, which count
-/// instead of what is written, for a calculation that goes on. Appends what is wrong to `problems`.
-std::vector<TrialTest> take_tests(input::Json& json, const std::string& file, input::Problems& problems,
-                                  const input::Json& decks_begun_with = {});
+/// or the name of a file, relative to the file that is read. A key that `proveta run` honours and trials do not is refused. Appends what is
+/// wrong to `problems`.
+std::vector<TrialTest> take_tests(input::Json& json, const std::string& file, input::Problems& problems, const TestRules& rules);
 
 /// Hashes of the files that tests were read from, by name.
 input::Json hashes_of(const std::vector<TrialTest>& tests);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lab/sweep/sweep_report.hpp"
+#include "lab/trials/verdicts.hpp"
 #include "reports/html.hpp"
 #include "reports/svg.hpp"
 #include "specimens/hdf5_file.hpp"
@@ -253,6 +254,7 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
         return problems.front().path;
     };
     CHECK(path_of(R"(, "results": ["strength", 1])") == "/results");
+    CHECK(path_of(R"(, "results": ["strength", "strenth"])") == "/results/1");
     CHECK(path_of(R"(, "design": "morris", "levels": 5)") == "/levels");
     CHECK(path_of(R"(, "design": "morris", "points": 50000)") == "/points");
     CHECK(path_of(R"(, "design": "random")") == "/design");
@@ -274,7 +276,7 @@ TEST_CASE("table, sensitivities and page of a sweep") {
     const bool trajectories = GENERATE(false, true);
     const Sweep sweep =
         read_sweep(folder.file("s.json", sweep_text(trajectories ? R"(, "design": "morris", "points": 5)"
-                                                                 : R"(, "points": 15, "results": ["strength", "strenth"])")));
+                                                                 : R"(, "points": 15, "results": ["strength", "strain_at_peak"])")));
     SweepOutcome o;
     std::vector<TrialResult> trials;
     for (std::size_t i = 0; i < sweep.values.size(); ++i) {
@@ -330,6 +332,34 @@ TEST_CASE("a trial whose specimen cannot be made fails with the reason, and by i
     REQUIRE(done.size() == 1);
     CHECK(done[0].status == "failed");
     CHECK(done[0].reason.find("/specimen/spheres") != std::string::npos);
+}
+
+TEST_CASE("trials and specimens of another physics have other keys") {
+    const TemporaryFolder folder;
+    const Trial trial = trials_of(read_sweep(folder.file("s.json", sweep_text(R"(, "points": 1)")))).front();
+    CHECK(keyed(trial).key == trial.key);
+    CHECK(keyed(trial, "0123456789ab").key != trial.key);
+    const auto& recipe = trial.jobs[0].deck["specimen"];
+    CHECK(specimen_key(recipe) == specimen_key(recipe, physics_revision()));
+    CHECK(specimen_key(recipe, "0123456789ab") != specimen_key(recipe));
+}
+
+TEST_CASE("what the tests of a sweep say of themselves") {
+    JobResult good{"a", "press", "complete", "", {}, true};
+    good.verdict = "yes";
+    good.rate_difference = 0.01;
+    JobResult bad = good;
+    bad.quasi_static = false;
+    bad.verdict = "no";
+    bad.rate_difference = 0.2;
+    JobResult unchecked{"b", "split", "complete", "", {}, true};
+    unchecked.verdict = "yes; not checked";
+    JobResult failed = bad;
+    failed.status = "failed";
+    const auto v = verdicts_of({{"1", {}, {good, unchecked}}, {"2", {}, {failed}}, {"3", {}, {bad, good}}});
+    CHECK(v["press"].dump() == R"({"good":false,"verdict":"no","tests":3,"good_tests":2,"rate_checked":3,"largest_rate_difference":0.2})");
+    CHECK(v["split"]["good"] == true);
+    CHECK(v["split"]["largest_rate_difference"].is_null());
 }
 
 TEST_CASE("a plot of rows names them instead of a y axis") {
