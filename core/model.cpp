@@ -54,6 +54,9 @@ Model::Model(Spheres s, std::vector<Material> m, Bonds b, std::vector<double> we
             throw UnstableStep(dt_, stable_);
         }
     }
+    if (numerics_.impact_steps > 0.0) {
+        dt_ = std::min(dt_, impact_step(spheres, contacts, walls, skin_, numerics_.impact_steps));
+    }
     first_dt_ = dt_;
 }
 

@@ -15,6 +15,7 @@
 #include "core/contacts/contacts.hpp"
 #include "core/energy/ledger.hpp"
 #include "core/motion/cluster_motion.hpp"
+#include "core/motion/impact_step.hpp"
 #include "core/motion/mass_scaling.hpp"
 #include "core/motion/motion.hpp"
 #include "core/motion/stable_step.hpp"
@@ -37,6 +38,8 @@ struct Numerics {
     double fastest = 0.1;                 ///< mean radii that a sphere may go in a step; who is faster shows that the calculation diverged
     std::optional<double> overlap_growth; ///< by which overlaps are taken to grow until the next search, m; empty: the skin, their most
     double energy_made = 0.5;             ///< over what was put in: more that comes from nothing shows that the calculation diverged
+    bool impacts = false;                 ///< loose contacts with the dashpots that impacts want (contact_law.hpp)
+    double impact_steps = 0.0;            ///< that an impact without damping takes at least (impact_step.hpp); 0: only stability counts
     bool refuse_unstable = true;          ///< false only to study how a scheme diverges: a step above the stable one is kept
 };
 
@@ -76,10 +79,12 @@ class Model {
     /// `measure` the ledger's stored and kinetic terms, the bonds' output arrays and the measures are brought up to date.
     void step(const std::vector<double>& speeds, bool measure);
 
-    [[nodiscard]] double dt() const { return dt_; }              ///< s
-    [[nodiscard]] double first_dt() const { return first_dt_; }  ///< step at the start; `dt` is below it once new contacts ask for that, s
-    [[nodiscard]] double stable_step() const { return stable_; } ///< bound at the last search, s
-    [[nodiscard]] double time() const { return time_; }          ///< s
+    [[nodiscard]] double dt() const { return dt_; }             ///< s
+    [[nodiscard]] double first_dt() const { return first_dt_; } ///< step at the start; `dt` is below it once new contacts ask for that, s
+    /// Largest overlap so far of two spheres, or of a sphere and a wall, over the smaller radius; only without bonds.
+    [[nodiscard]] double largest_overlap() const { return largest_overlap_; }
+    [[nodiscard]] double stable_step() const { return stable_; }               ///< bound at the last search, s
+    [[nodiscard]] double time() const { return time_; }                        ///< s
     [[nodiscard]] const MassScaling& mass_scaling() const { return scaling_; } ///< masses in `spheres` are the scaled ones
     [[nodiscard]] std::int64_t steps() const { return steps_; }
     [[nodiscard]] const Ledger& ledger() const { return ledger_; }
@@ -137,6 +142,8 @@ class Model {
 
     void search();
     void keep_stable(bool first);
+    void look_ahead();
+    [[nodiscard]] double way_of_step() const;
     [[nodiscard]] double damping_share() const;
     void arrange();
     void average();
@@ -180,6 +187,7 @@ class Model {
     std::int64_t searches_ = 0;
     std::size_t broken_ = 0;
     double fastest_ = 0.0;
+    double largest_overlap_ = 0.0;
     Ledger ledger_;
     StepMeasures measures_;
     bool averaged_ = false;      // some bonds fail by an averaged criterion
@@ -276,6 +284,7 @@ template <class Visit> void Model::visit_state(Visit&& visit) {
     visit("steps", steps_);
     visit("searches", searches_);
     visit("fastest", fastest_);
+    visit("largest_overlap", largest_overlap_);
     for (auto [name, value] : {std::pair{"platens", &ledger_.platens},
                                {"pressure", &ledger_.pressure},
                                {"body", &ledger_.body},

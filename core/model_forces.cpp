@@ -14,17 +14,18 @@ void Model::block_forces(std::size_t k, const BondView& view, const ContactView&
     out.failures.clear();
     loads.clear_kept(block);
     out.bonds = bond_forces(spheres.view(), bonds, view, k, loads.rows(), elapsed, measure, out.failures);
-    out.contacts = contact_forces(spheres.view(), contacts, touching, k, elapsed, dt_, loads);
+    const ContactStep step{elapsed, dt_, numerics_.impacts, bonds.size() == 0};
+    out.contacts = contact_forces(spheres.view(), contacts, touching, k, step, loads);
     out.walls.clear();
     for (auto& platen : walls.platens) {
-        out.walls.push_back(platen_forces(spheres, platen, block, elapsed, dt_, loads));
+        out.walls.push_back(platen_forces(spheres, platen, block, step, loads));
     }
     for (auto& surface : walls.surfaces) {
-        out.walls.push_back(surface_forces(spheres, surface, k, block, elapsed, dt_, loads));
+        out.walls.push_back(surface_forces(spheres, surface, k, block, step, loads));
     }
     out.bodies.clear();
     for (auto& body : walls.bodies) {
-        out.bodies.push_back(deformable_forces(spheres, body, k, block, elapsed, dt_, loads));
+        out.bodies.push_back(deformable_forces(spheres, body, k, block, step, loads));
     }
     out.pressure = 0.0;
     for (auto& pressure : pressures) {
@@ -85,6 +86,7 @@ void Model::forces(double elapsed, bool measure) {
         ledger_.dashpots += sums.bonds.dashpot + sums.contacts.dashpot;
         ledger_.pressure += sums.pressure;
         stored += sums.contacts.stored;
+        largest_overlap_ = std::max(largest_overlap_, sums.contacts.deepest);
         for (std::size_t p = 0; p < at_walls.size(); ++p) {
             at_walls[p].add(sums.walls[p]);
         }
@@ -99,12 +101,14 @@ void Model::forces(double elapsed, bool measure) {
         body.crossings += static_cast<std::int64_t>(body.sums.crossed);
         ledger_.friction += body.sums.friction;
         ledger_.dashpots += body.sums.dashpot;
+        largest_overlap_ = std::max(largest_overlap_, body.sums.deepest);
         ledger_.coupling += steps_ > 0 ? body.sums.made : 0.0; // what presses from the start is counted there
     }
     for (const auto& sums : at_walls) {
         ledger_.friction += sums.friction;
         ledger_.dashpots += sums.dashpot;
         stored += sums.stored;
+        largest_overlap_ = std::max(largest_overlap_, sums.deepest);
     }
     for (std::size_t p = 0; p < walls.platens.size(); ++p) {
         Platen& platen = walls.platens[p];

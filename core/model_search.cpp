@@ -9,15 +9,17 @@
 namespace proveta {
 
 // Lists neighbours anew once two spheres, or a sphere and a wall, may have come nearer by more than the skin. Surfaces may be faster than
-// any sphere and are listed by themselves.
+// any sphere and are listed by themselves. Where impacts count, a contact is listed before it begins, however far a step goes.
 void Model::search() {
     const bool first = searches_ == 0;
+    const double ahead = way_of_step();
     double platens_way = 0.0;
     for (std::size_t p = 0; p < platens_at_.size(); ++p) {
         platens_way = std::max(platens_way, std::fabs(walls.platens[p].position - platens_at_[p]));
     }
-    const bool neighbours = search_anew_ || 2.0 * platens_way > skin_ || travel_.beyond(0.5 * skin_, spheres.position);
+    const bool neighbours = search_anew_ || 2.0 * platens_way > skin_ || travel_.beyond(0.5 * (skin_ - ahead), spheres.position);
     if (neighbours) {
+        look_ahead();
         contacts = search_contacts(spheres, bonds, clusters, materials, weight_, skin_, contacts, team_.get());
         platens_at_.resize(walls.platens.size());
         for (std::size_t p = 0; p < walls.platens.size(); ++p) {
@@ -32,7 +34,7 @@ void Model::search() {
     tracks_.resize(walls.surfaces.size());
     for (std::size_t p = 0; p < tracks_.size(); ++p) {
         SurfaceTrack& track = tracks_[p];
-        if (search_anew_ || track.way > skin_ || track.spheres.beyond(skin_ - track.way, spheres.position)) {
+        if (search_anew_ || track.way > skin_ || track.spheres.beyond(skin_ - track.way - ahead, spheres.position)) {
             search_surface(spheres, materials, skin_, walls.surfaces[p], team_.get());
             track.spheres.restart(spheres.position);
             track.way = 0.0;
@@ -42,7 +44,7 @@ void Model::search() {
     body_tracks_.resize(walls.bodies.size());
     for (std::size_t p = 0; p < body_tracks_.size(); ++p) {
         Deformable& body = walls.bodies[p];
-        if (const double way = body.way(); search_anew_ || way > skin_ || body_tracks_[p].beyond(skin_ - way, spheres.position)) {
+        if (const double way = body.way(); search_anew_ || way > skin_ || body_tracks_[p].beyond(skin_ - way - ahead, spheres.position)) {
             search_deformable(spheres, materials, skin_, body, *team_);
             body_tracks_[p].restart(spheres.position);
             surfaces = true;
@@ -52,6 +54,28 @@ void Model::search() {
     if (neighbours || surfaces) {
         follow_bodies(); // the bound looks at the skin as it is now
         keep_stable(first);
+        if (numerics_.impact_steps > 0.0 && !first) {
+            dt_ = std::min(dt_, impact_step(spheres, contacts, walls, skin_, numerics_.impact_steps));
+        }
+    }
+}
+
+// How far two bodies may approach each other in a step, m; 0 where impacts do not count.
+double Model::way_of_step() const {
+    double speed = 2.0 * fastest_;
+    for (const auto& surface : walls.surfaces) {
+        speed = std::max(speed, fastest_ + surface.drive.velocity.norm() + surface.drive.spin.norm() * surface.reach());
+    }
+    return numerics_.impact_steps > 0.0 ? speed * dt_ : 0.0;
+}
+
+// The skin must be wide enough for pairs to be listed a step before they can meet.
+void Model::look_ahead() {
+    for (std::size_t k = 0; k < spheres.size() && numerics_.impact_steps > 0.0; ++k) {
+        fastest_ = std::max(fastest_, spheres.velocity.at(k).norm());
+    }
+    if (const double least = 2.0 * way_of_step(); skin_ < least) {
+        set_skin(least);
     }
 }
 

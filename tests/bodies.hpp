@@ -132,7 +132,7 @@ struct CouplingBench {
         std::fill(body.solid.contact.begin(), body.solid.contact.end(), Vec3::Zero());
         SkinSums sums;
         for (std::size_t k = 0; k < loads.blocks().size(); ++k) {
-            sums.add(deformable_forces(spheres, body, k, loads.blocks()[k], elapsed, elapsed, loads));
+            sums.add(deformable_forces(spheres, body, k, loads.blocks()[k], {elapsed, elapsed}, loads));
         }
         collect_node_loads(body);
         return sums;

@@ -84,7 +84,7 @@ void set_up_platen(const Spheres& spheres, const std::vector<Material>& material
     }
 }
 
-WallSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& block, double elapsed, double dt, Loads& loads) {
+WallSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& block, const ContactStep& step, Loads& loads) {
     WallSums sum;
     const ListedRange range = listed_in(p.sphere, block);
     for (std::size_t k = range.begin; k < range.end; ++k) {
@@ -92,7 +92,7 @@ WallSums platen_forces(const Spheres& spheres, Platen& p, const SphereBlock& blo
         const auto [distance, n, aside] = p.foot(spheres.position.at(s));
         WallHistory history{p.slip.at(k), p.viscous.at(k)};
         const auto load =
-            advance_wall(spheres, s, p.law[k], p.contact_distance[k], {distance, n, p.velocity * p.face.axis}, elapsed, dt, history, sum);
+            advance_wall(spheres, s, p.law[k], p.contact_distance[k], {distance, n, p.velocity * p.face.axis}, step, history, sum);
         p.slip.set(k, history.slip);
         p.viscous.set(k, history.viscous);
         p.force.set(k, load.force);

@@ -101,8 +101,7 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
 /// Fills in what follows from the listed spheres: contact distances and laws.
 void set_up_platen(const Spheres& spheres, const std::vector<Material>& materials, Platen& platen);
 
-/// Advances the platen's contacts with one block of spheres by `elapsed` seconds and adds their forces to the loads. dt: the step that the
-/// forces will act for, s.
-WallSums platen_forces(const Spheres& spheres, Platen& platen, const SphereBlock& block, double elapsed, double dt, Loads& loads);
+/// Advances the platen's contacts with one block of spheres and adds their forces to the loads.
+WallSums platen_forces(const Spheres& spheres, Platen& platen, const SphereBlock& block, const ContactStep& step, Loads& loads);
 
 } // namespace proveta

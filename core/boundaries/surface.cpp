@@ -163,7 +163,7 @@ void set_up_surface(const Spheres& spheres, const std::vector<Material>& materia
     surface.touches.resize(blocks_of(spheres.size()));
 }
 
-WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t number, const SphereBlock& block, double elapsed, double dt,
+WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t number, const SphereBlock& block, const ContactStep& step,
                         Loads& loads) {
     WallSums sum;
     thread_local std::vector<FaceContact> found;
@@ -190,18 +190,26 @@ WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t nu
             const double way =
                 (velocity - spheres.velocity.at(s)).norm() + (spheres.spin.at(s).norm() + surface.motion.spin.norm()) * radius;
             SurfaceTouch touch{surface.sphere[k], contact.face, contact.feature, contact.index, contact.point, {}, {}};
-            const std::size_t before = nearest_touch(old, begin, end, contact.point, 1.01 * way * elapsed + 1e-9 * radius,
+            const std::size_t before = nearest_touch(old, begin, end, contact.point, 1.01 * way * step.elapsed + 1e-9 * radius,
                                                      [](const SurfaceTouch& t) { return t.point; });
             if (before < end) {
                 touch.history = old[before].history;
                 old[before].sphere = -1;
             }
             const auto load = advance_wall(spheres, s, surface.law[k], radius, {distance, normal, velocity, surface.motion.spin, turning},
-                                           elapsed, dt, touch.history, sum);
+                                           step, touch.history, sum);
             touch.force = load.force;
             sum.torque -= (point - surface.origin).cross(load.force);
             loads.add(s, load.force, load.torque);
             touches.push_back(touch);
+        }
+        for (std::size_t gone = begin; gone < end; ++gone) {
+            if (old[gone].sphere >= 0) { // what a contact that has ended still held goes in its last step
+                const Vec3 point = surface.origin + turn * old[gone].point;
+                const double distance = std::max((centre - point).norm(), radius);
+                advance_wall(spheres, s, surface.law[k], radius, {distance, (centre - point).normalized(), surface.velocity_at(point)},
+                             step, old[gone].history, sum);
+            }
         }
         begin = end;
     }

@@ -102,9 +102,9 @@ void search_surface(const Spheres& spheres, const std::vector<Material>& materia
 /// Fills in the constants of the listed spheres' contacts.
 void set_up_surface(const Spheres& spheres, const std::vector<Material>& materials, Surface& surface);
 
-/// Finds the contacts of one block of spheres, advances them by `elapsed` seconds and adds their forces to the loads. A contact takes over
+/// Finds the contacts of one block of spheres, advances them and adds their forces to the loads. A contact takes over
 /// the tangential history of the old one nearest to it within the way that the sphere went (3.22), whichever face that was on.
-WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t number, const SphereBlock& block, double elapsed, double dt,
+WallSums surface_forces(const Spheres& spheres, Surface& surface, std::size_t number, const SphereBlock& block, const ContactStep& step,
                         Loads& loads);
 
 } // namespace proveta

@@ -1,6 +1,8 @@
 // One contact of a sphere with a rigid surface, whatever the surface's form: motion against each other, law, rolling resistance.
 #pragma once
 
+#include <algorithm>
+
 #include "core/contacts/loose.hpp"
 #include "core/contacts/rolling.hpp"
 #include "core/particles/spheres.hpp"
@@ -15,6 +17,7 @@ struct WallSums {
     Vec3 reaction = Vec3::Zero(); ///< force of the spheres on the surface, N
     Vec3 torque = Vec3::Zero();   ///< of the spheres on a surface that turns, about its origin, N m
     double thrust = 0.0;          ///< sum of the normal forces, N
+    double deepest = 0.0;         ///< largest overlap over the sphere's radius
     int touching = 0;
 
     void add(const WallSums& other) {
@@ -24,6 +27,7 @@ struct WallSums {
         reaction += other.reaction;
         torque += other.torque;
         thrust += other.thrust;
+        deepest = std::max(deepest, other.deepest);
         touching += other.touching;
     }
 };
@@ -55,11 +59,12 @@ inline Vec3 across(const Vec3& u, const Vec3& n) {
     return size > 0.0 ? Vec3(flat * (u.norm() / size)) : flat;
 }
 
-/// Advances a contact by `elapsed` seconds. contact_distance: at which the sphere begins to touch, m; dt: the step that the force will act
-/// for, s. Adds to the sums, but for their torque.
+/// Advances a contact. contact_distance: at which the sphere begins to touch, m. Adds to the sums, but for their torque.
 inline WallLoad advance_wall(const Spheres& spheres, std::size_t s, const LooseContact& law, double contact_distance, const WallPoint& wall,
-                             double elapsed, double dt, WallHistory& history, WallSums& sum) {
+                             const ContactStep& step, WallHistory& history, WallSums& sum) {
     const Vec3& n = wall.normal;
+    const double elapsed = step.elapsed;
+    const double overlap = contact_distance - wall.distance;
     const double approach = (wall.velocity - spheres.velocity.at(s)).dot(n) * elapsed;
     // Contact point at the foot of the sphere: the surface slides along its way only where that lies across the normal.
     const Vec3 arm = -wall.distance * n;
@@ -70,7 +75,7 @@ inline WallLoad advance_wall(const Spheres& spheres, std::size_t s, const LooseC
     const Vec3 viscous_t = history.viscous - n * n.dot(history.viscous);
     contact::State<double> state{
         {old_slip.x(), old_slip.y(), old_slip.z()}, history.viscous.dot(n), {viscous_t.x(), viscous_t.y(), viscous_t.z()}};
-    const auto r = advance(law, contact_distance - wall.distance, approach, elapsed, slip, state);
+    const auto r = advance(law, overlap, approach, step, slip, state);
     history.slip = {state.u_t[0], state.u_t[1], state.u_t[2]};
     history.viscous = Vec3(state.viscous_t[0], state.viscous_t[1], state.viscous_t[2]) + state.viscous * n;
     const Vec3 force = Vec3(r.shear[0], r.shear[1], r.shear[2]) + r.normal * n;
@@ -78,12 +83,13 @@ inline WallLoad advance_wall(const Spheres& spheres, std::size_t s, const LooseC
     if (law.rolling_arm > 0.0) {
         const Vec3 spin = spheres.spin.at(s) - wall.spin;
         const double relative_spin[3] = {spin.x(), spin.y(), spin.z()};
-        const auto rolling = rolling::torque<double>(law.rolling_arm, r.normal, law.reduced_inertia, relative_spin, dt);
+        const auto rolling = rolling::torque<double>(law.rolling_arm, r.normal, law.reduced_inertia, relative_spin, step.dt);
         torque += Vec3(rolling.torque[0], rolling.torque[1], rolling.torque[2]);
         sum.friction += rolling.power * elapsed;
     }
     sum.reaction -= force;
     sum.thrust += r.normal;
+    sum.deepest = std::max(sum.deepest, overlap / spheres.radius[s]);
     sum.touching += r.normal > 0.0 ? 1 : 0;
     sum.stored += r.stored;
     sum.friction += r.friction_work;

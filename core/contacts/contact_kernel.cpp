@@ -98,11 +98,17 @@ PROVETA_INLINE void advance_group(const SphereView& s, const ContactView& c, dou
         state.u_t[x] = pair.turned[x];
         state.viscous_t[x] = last[x] - pulled * pair.n[x];
     }
-    const typename Law::template Parameters<T> parameters{
-        law([](const LooseContact& l) { return l.k_n; }),      law([](const LooseContact& l) { return l.k_t; }),
-        law([](const LooseContact& l) { return l.c_n; }),      law([](const LooseContact& l) { return l.c_t; }),
-        law([](const LooseContact& l) { return l.friction; }), c.law[k[0]].tension};
-    const T overlap = gather<T>(c.reach, index) - pair.distance;
+    const typename Law::template Parameters<T> parameters{law([](const LooseContact& l) { return l.k_n; }),
+                                                          law([](const LooseContact& l) { return l.k_t; }),
+                                                          law([](const LooseContact& l) { return l.c_n; }),
+                                                          law([](const LooseContact& l) { return l.c_t; }),
+                                                          law([](const LooseContact& l) { return l.friction; }),
+                                                          c.law[k[0]].tension,
+                                                          step.impacts,
+                                                          step.impacts ? law([](const LooseContact& l) { return l.reduced_mass; })
+                                                                       : T(1.0)};
+    const T reach = gather<T>(c.reach, index);
+    const T overlap = reach - pair.distance;
     const T approach = -pair.separation * step.elapsed;
     const auto r = Law::advance(parameters, overlap, approach, step.elapsed, pair.slip, state);
     for (int x = 0; x < 3; ++x) {
@@ -128,6 +134,13 @@ PROVETA_INLINE void advance_group(const SphereView& s, const ContactView& c, dou
     const auto force = add_pair_loads(rows, i, row_j, pair, share, r.normal, r.shear, couple);
     for (int x = 0; x < 3; ++x) {
         scatter(c.force[x], k, force.x[x]);
+    }
+    if (step.overlaps) {
+        using std::min;
+        const T deep = overlap / (reach * min(share, T(1.0 - share))); // the share divides the radii
+        for (std::size_t lane = 0; lane < width; ++lane) {
+            sum.deepest = std::max(sum.deepest, in_lane(deep, lane));
+        }
     }
     const T slid = r.friction_work + rolled;
     for (std::size_t lane = 0; lane < width; ++lane) {

@@ -14,6 +14,7 @@ struct ContactEnergies {
     double stored = 0.0;
     double friction = 0.0;
     double dashpot = 0.0;
+    double deepest = 0.0; ///< largest overlap over the smaller radius, when it is asked for
 };
 
 /// Bare pointers into the contacts' arrays (core/contacts/contacts.hpp says what they hold).
@@ -29,11 +30,6 @@ struct ContactView {
     std::uint32_t* touching; ///< scratch, one a contact
     bool pulls;              ///< some contact may pull
     bool rolls;              ///< some contact has rolling resistance
-};
-
-/// How long the last step was and the next will be, s.
-struct ContactStep {
-    double elapsed, dt;
 };
 
 /// Advances contacts begin to end and adds their forces to the rows.

@@ -140,10 +140,10 @@ ContactView Contacts::view() {
 }
 
 ContactEnergies contact_forces(const SphereView& spheres, const Contacts& contacts, const ContactView& view, std::size_t block,
-                               double elapsed, double dt, Loads& loads) {
+                               const ContactStep& step, Loads& loads) {
     static const ContactKernel kernel = pick_variant(contact_kernel_baseline, contact_kernel_avx2, contact_kernel_avx512);
     ContactEnergies sum;
-    kernel(spheres, view, loads.rows(), contacts.first[block], contacts.first[block + 1], {elapsed, dt}, sum);
+    kernel(spheres, view, loads.rows(), contacts.first[block], contacts.first[block + 1], step, sum);
     return sum;
 }
 

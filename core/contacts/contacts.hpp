@@ -48,9 +48,8 @@ Contacts search_contacts(const Spheres& spheres, const Bonds& bonds, const Clust
 /// Fills in what follows from the pairs themselves: contact distances, laws, lever shares, incidence.
 void set_up_contacts(const Spheres& spheres, const std::vector<Material>& materials, const std::vector<double>& weight, Contacts& contacts);
 
-/// Advances the contacts of one block of spheres by `elapsed` seconds and adds their forces and rolling resistance to the loads. dt: the
-/// step that the forces will act for, s.
+/// Advances the contacts of one block of spheres and adds their forces and rolling resistance to the loads.
 ContactEnergies contact_forces(const SphereView& spheres, const Contacts& contacts, const ContactView& view, std::size_t block,
-                               double elapsed, double dt, Loads& loads);
+                               const ContactStep& step, Loads& loads);
 
 } // namespace proveta

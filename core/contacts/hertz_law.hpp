@@ -29,6 +29,8 @@ template <class T> struct Parameters {
     T c_t; ///< N s/m^(5/4)
     T mu;
     bool tension = false;
+    bool impacts = false; ///< with the corrections of contact_law.hpp
+    T mass = T(1.0);      ///< reduced, kg; for these
 };
 
 /// One step of one contact; arguments as in `linear::advance`. The overlap of the last step is overlap - approach.
@@ -46,7 +48,14 @@ PROVETA_INLINE contact::Response<T> advance(const Parameters<T>& p, const T& ove
     const auto touching = overlap > zero;
 
     const T elastic = (2.0 / 3.0) * k_n * delta;
-    const T viscous = select(touching, max(p.c_n * fourth_root * (approach / dt), T(contact::lowest_force(p.tension)) - elastic), zero);
+    T dashpot = p.c_n * fourth_root;
+    if (p.impacts) {
+        // Of a contact that begins: the mean of c over n steps, as it grows with the fourth root of the way, times n.
+        const T n = contact::begun(overlap, approach);
+        const T first = 0.8 * p.c_n * n * sqrt(sqrt(max(n * approach, zero)));
+        dashpot = contact::lagging(T(select(overlap < approach, first, dashpot)), dt, p.mass);
+    }
+    const T viscous = select(touching, max(dashpot * (approach / dt), T(contact::lowest_force(p.tension)) - elastic), zero);
     contact::Response<T> r;
     r.normal = elastic + viscous;
     r.stored = 0.4 * elastic * delta;

@@ -23,6 +23,8 @@ template <class T> struct Parameters {
     T c_t; ///< N s/m
     T mu;
     bool tension = false;
+    bool impacts = false; ///< with the corrections of contact_law.hpp
+    T mass = T(1.0);      ///< reduced, kg; for these
 };
 
 /// One step of one contact. overlap in m (negative: apart), approach: its increase in the step, m; dt in s; slip: tangential displacement
@@ -34,7 +36,11 @@ PROVETA_INLINE contact::Response<T> advance(const Parameters<T>& p, const T& ove
     const T lowest = T(contact::lowest_force(p.tension));
     const auto touching = overlap > lowest;
     const T elastic = max(p.k_n * overlap, lowest);
-    const T viscous = select(touching, max(p.c_n * (approach / dt), lowest - elastic), T(0.0));
+    T dashpot = p.c_n;
+    if (p.impacts) {
+        dashpot = contact::lagging(p.c_n, dt, p.mass) * select(overlap < approach, contact::begun(overlap, approach), T(1.0));
+    }
+    const T viscous = select(touching, max(dashpot * (approach / dt), lowest - elastic), T(0.0));
     contact::Response<T> r;
     r.normal = elastic + viscous;
     r.stored = 0.5 * elastic * max(overlap, lowest);

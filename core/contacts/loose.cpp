@@ -23,6 +23,7 @@ double damping_ratio(const Material& m) {
 LooseContact damped(LooseContact c, double xi, double reduced_mass) {
     c.c_n = 2.0 * xi * std::sqrt(reduced_mass * c.k_n);
     c.c_t = 2.0 * xi * std::sqrt(reduced_mass * c.k_t);
+    c.reduced_mass = reduced_mass;
     return c;
 }
 

@@ -42,12 +42,14 @@ LooseContact loose_contact(const LoosePair& pair, const LooseBody& i, const Loos
 LooseContact wall_contact(const LoosePair& pair, const LooseBody& sphere, double section);
 
 /// One step; see `linear::advance`.
-inline contact::Response<double> advance(const LooseContact& c, double overlap, double approach, double dt, const double (&slip)[3],
-                                         contact::State<double>& state) {
+inline contact::Response<double> advance(const LooseContact& c, double overlap, double approach, const ContactStep& step,
+                                         const double (&slip)[3], contact::State<double>& state) {
     if (c.law == ContactLaw::hertz) {
-        return hertz::advance<double>({c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.tension}, overlap, approach, dt, slip, state);
+        return hertz::advance<double>({c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.tension, step.impacts, c.reduced_mass}, overlap, approach,
+                                      step.elapsed, slip, state);
     }
-    return linear::advance<double>({c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.tension}, overlap, approach, dt, slip, state);
+    return linear::advance<double>({c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.tension, step.impacts, c.reduced_mass}, overlap, approach,
+                                   step.elapsed, slip, state);
 }
 
 /// Energy of the springs at an overlap and an elastic tangential displacement in m, J.

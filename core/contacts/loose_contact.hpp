@@ -18,6 +18,15 @@ struct LooseContact {
     double friction = 0.0;
     double rolling_arm = 0.0;     ///< eta_r R_r, m
     double reduced_inertia = 0.0; ///< of the relative spin, kg m2
+    double reduced_mass = 0.0;    ///< kg
+};
+
+/// One step of loose contacts.
+struct ContactStep {
+    double elapsed;        ///< since the last forces, s
+    double dt;             ///< that the forces will act for, s
+    bool impacts = false;  ///< dashpots as `contact::lagging` and `contact::begun` have them
+    bool overlaps = false; ///< the largest overlap is asked for
 };
 
 } // namespace proveta

@@ -175,13 +175,15 @@ LooseContact scaled(LooseContact c, double share) {
     c.k_t *= share;
     c.c_n *= share;
     c.c_t *= share;
+    c.reduced_mass *= share;
     return c;
 }
 
 } // namespace
 
-SkinSums deformable_forces(const Spheres& spheres, Deformable& body, std::size_t number, const SphereBlock& block, double elapsed,
-                           double dt, Loads& loads) {
+SkinSums deformable_forces(const Spheres& spheres, Deformable& body, std::size_t number, const SphereBlock& block, const ContactStep& step,
+                           Loads& loads) {
+    const double elapsed = step.elapsed;
     thread_local Scratch s;
     SkinSums sum;
     auto& touches = body.touches[number];
@@ -240,8 +242,7 @@ SkinSums deformable_forces(const Spheres& spheres, Deformable& body, std::size_t
             const double approach = (velocity - spheres.velocity.at(id)).dot(normal) * elapsed;
             sum.made += stored_energy(law, radius - distance - approach, touch.history.slip.norm());
             const double stored = sum.stored;
-            const auto load =
-                advance_wall(spheres, id, law, radius, {distance, normal, velocity, spin, turning}, elapsed, dt, touch.history, sum);
+            const auto load = advance_wall(spheres, id, law, radius, {distance, normal, velocity, spin, turning}, step, touch.history, sum);
             touch.stored = sum.stored - stored;
             touch.force = load.force;
             loads.add(id, load.force, load.torque);

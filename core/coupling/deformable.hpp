@@ -98,10 +98,10 @@ void search_deformable(const Spheres& spheres, const std::vector<Material>& mate
 /// Fills in the constants of the listed spheres' contacts.
 void set_up_deformable(const Spheres& spheres, const std::vector<Material>& materials, Deformable& body);
 
-/// Finds the contacts of one block of spheres with the skin as it is, advances them by `elapsed` seconds, adds their forces to the spheres'
-/// loads and keeps those on the nodes. Every sphere's forces and torques are balanced on the nodes to round-off.
-SkinSums deformable_forces(const Spheres& spheres, Deformable& body, std::size_t number, const SphereBlock& block, double elapsed,
-                           double dt, Loads& loads);
+/// Finds the contacts of one block of spheres with the skin as it is, advances them, adds their forces to the spheres' loads and keeps
+/// those on the nodes. Every sphere's forces and torques are balanced on the nodes to round-off.
+SkinSums deformable_forces(const Spheres& spheres, Deformable& body, std::size_t number, const SphereBlock& block, const ContactStep& step,
+                           Loads& loads);
 
 /// Adds what the blocks kept to the nodes, block after block.
 void collect_node_loads(Deformable& body);

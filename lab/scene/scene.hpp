@@ -86,6 +86,7 @@ struct SceneNumerics {
     input::NumberOrWord time_step{0.0, "auto"};
     std::string above_bound = "refuse";
     double safety = 0.9;
+    double impact_steps = 20.0;
     input::NumberOrWord skin{0.0, "auto"};
     double largest_overlap = 0.01;
     double damping = 0.0;

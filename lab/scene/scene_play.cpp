@@ -22,6 +22,7 @@ std::vector<Material> materials_of(const Scene& scene) {
     return out;
 }
 
+constexpr double most_steps = 1e9;  // some hours for a single particle
 constexpr double longest_way = 0.5; // of a sphere or a surface in a step, over the mean radius: who goes farther might pass through another
 
 Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Material>& materials) {
@@ -32,6 +33,8 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
     n.skin = in.skin.word.empty() ? in.skin.number : 0.2;
     n.damping = {in.damping, in.damping};
     n.refuse_unstable = in.above_bound == "refuse" || !in.time_step.word.empty();
+    n.impacts = true;
+    n.impact_steps = in.time_step.word.empty() ? 0.0 : in.impact_steps;
     n.fastest = longest_way; // who is flung out of a pinch is no failure
     n.gravity = vector(scene.gravity);
     n.overlap_growth = in.largest_overlap * mean_radius(feed.kinds());
@@ -62,6 +65,12 @@ ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene), mean_rad
         }
         numerics.time_step = scene.numerics.safety * step.stable; // the first particles touch more closely than reckoned
         set_up();
+    }
+    if (const double steps = scene.stop.time / model_->dt(); steps > most_steps) {
+        throw input::InputError(
+            {{scene.source, "/stop/time", fmt::format("{:.4g} s, {:.2g} steps of {:.3g} s", scene.stop.time, steps, model_->dt()),
+              fmt::format("at most {:.4g} s, {:.0g} steps: no end is in sight of more", most_steps * model_->dt(), most_steps),
+              "less time, or a softer young_modulus or larger particles, which make longer steps"}});
     }
     model_->set_skin(numerics.skin * mean_radius_); // the first particles may be none, or the smallest
 }

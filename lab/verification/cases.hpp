@@ -11,6 +11,7 @@ Case rolling_resistance();
 Case parabolic_flight();
 Case lsd_impact();
 Case hertz_impact();
+Case impact_steps();
 Case sphere_between_plates();
 Case damped_critical_step();
 Case cylinder_precession();

@@ -62,7 +62,7 @@ void LedSphere::go(const Vec3& to) {
     if (step_++ % every_ == 0) {
         search_surface(spheres_, materials_, skin_, surface_);
     }
-    surface_.sums = surface_forces(spheres_, surface_, 0, loads_.blocks()[0], dt_, dt_, loads_);
+    surface_.sums = surface_forces(spheres_, surface_, 0, loads_.blocks()[0], {dt_, dt_}, loads_);
 }
 
 double LedSphere::tangential_forces() const {

@@ -12,6 +12,7 @@ const std::vector<Case>& cases() {
         parabolic_flight(),
         lsd_impact(),
         hertz_impact(),
+        impact_steps(),
         sphere_between_plates(),
         damped_critical_step(),
         cylinder_precession(),

@@ -118,7 +118,7 @@ TEST_CASE("coupling: a flat skin however fine is a rigid wall to the sphere") {
             for (int n = 0; n < 20; ++n) {
                 b.advance(1e-4);
                 Loads loads(1);
-                const WallSums sums = surface_forces(b.spheres, wall, 0, loads.blocks()[0], 1e-4, 1e-4, loads);
+                const WallSums sums = surface_forces(b.spheres, wall, 0, loads.blocks()[0], {1e-4, 1e-4}, loads);
                 CHECK((b.force(0) + sums.reaction).norm() < 1e-11 * b.force(0).norm());
                 CHECK((b.torque(0) - Vec3(loads.row(0).torque[0], loads.row(0).torque[1], loads.row(0).torque[2])).norm() <
                       1e-11 * 0.05 * b.force(0).norm());
