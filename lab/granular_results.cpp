@@ -114,6 +114,8 @@ std::vector<report::Scalar> granular_results(const Measured& m, double pressure,
           "rate of axial strain times d sqrt(rho / p); below a thousandth flow counts as quasi-static"},
          {"membrane_leaks", "Particles through the membrane", crossings, "",
           "contacts whose particle's centre lay beyond it, over all steps"},
+         {"largest_overlap", "Largest overlap", m.overlap, "",
+          "of two spheres, or of a sphere and a platen or the membrane, over the smaller radius, at any step; beyond that of the bed"},
          {"work", "Work of the platens", m.energy.rows.back()[m.energy.column("platens")], "J", "to the end of the test"},
          {"friction_work", "Dissipated by sliding", m.energy.rows.back()[m.energy.column("friction")], "J", "to the end of the test"}});
     for (auto&& more : cycle_results(m.curve, m.press.sense)) {

@@ -105,6 +105,14 @@ std::vector<report::Scalar> rate_results(const report::Table& curve, double sens
             {"highest_rate", "Highest rate", highest, "m/s", range}};
 }
 
+std::string overlap_warning(double overlap) {
+    constexpr double most = 0.05; // a contact area of a tenth of the section: beyond, Hertz's theory and the particles' volume are off
+    return overlap <= most ? ""
+                           : fmt::format("The largest overlap was {:.2g} of the smaller radius, more than {:.2g}: forces, densities and "
+                                         "durations of impacts are those of squashed particles. A higher young_modulus makes it less.",
+                                         overlap, most);
+}
+
 std::string coupling_warning(const report::Table& energy) {
     constexpr double most = 0.02;
     if (energy.rows.empty()) {

@@ -20,6 +20,10 @@ std::vector<report::Scalar> rate_results(const report::Table& curve, double sens
 /// Judges the ledger: residual below 1 % of the work put in, at every sample after a hundredth of the final work.
 report::Badge energy_verdict(const report::Table& energy);
 
+/// That loose particles sank into each other so far that it falsifies the results; empty where they did not. overlap: the largest, over the
+/// smaller radius.
+std::string overlap_warning(double overlap);
+
 /// What to say when sharing contact forces out over deformable bodies made or took more than a fiftieth of the energy that went through the
 /// ledger, at the end; empty otherwise.
 std::string coupling_warning(const report::Table& energy);

@@ -60,6 +60,9 @@ std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, 
         }
     }
     const bool bonded = bench.model->bonds.size() > 0;
+    if (const std::string soft = overlap_warning(bonded ? 0.0 : bench.model->largest_overlap()); !soft.empty()) {
+        out.push_back(soft);
+    }
     if (bonded && bench.model->dt() < bench.model->first_dt()) { // contacts of loose matter stiffen as they are pressed
         out.push_back(fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when new contacts had made the specimen stiffer.",
                                   bench.model->first_dt(), bench.model->dt()));
@@ -82,8 +85,8 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     r.status = status;
     r.stopped_by = data.stopped_by;
     if (!data.curve.rows.empty()) {
-        r.results = deck.protocol->results(
-            {data.curve, data.energy, data.events, bench.specimen.shape, bench.press, bench.grain, bench.model->materials.front().density});
+        r.results = deck.protocol->results({data.curve, data.energy, data.events, bench.specimen.shape, bench.press, bench.grain,
+                                            bench.model->materials.front().density, bench.model->largest_overlap()});
         std::vector<std::vector<report::Scalar>> all{rate_results(data.curve, bench.press.sense)};
         if (bench.model->bonds.size() > 0) {
             all.push_back(acoustic_results(acoustic));
@@ -114,7 +117,7 @@ std::vector<report::Scalar> possible_results(const Deck& deck) {
     report::Table curve;
     curve.columns = Instruments::curve_columns(false);
     const report::Table energy = Instruments::empty_energy();
-    auto out = deck.protocol->results({curve, energy, {}, shape_of(deck.specimen), Press{}, 0.0, 0.0});
+    auto out = deck.protocol->results({curve, energy, {}, shape_of(deck.specimen), Press{}, 0.0, 0.0, 0.0});
     std::vector<std::vector<report::Scalar>> all{rate_results(curve, 1.0)};
     if (!deck.protocol->granular()) {
         all.push_back(acoustic_results({}));

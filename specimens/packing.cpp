@@ -45,6 +45,7 @@ struct Sums {
     double contact = 0.0; // sum of single contact forces
     double contacts = 0.0;
     double farthest = 0.0;
+    double deepest = 0.0; // overlap over the smaller radius
 
     void add(const Sums& o) {
         power += o.power;
@@ -54,6 +55,7 @@ struct Sums {
         contact += o.contact;
         contacts += o.contacts;
         farthest = std::max(farthest, o.farthest);
+        deepest = std::max(deepest, o.deepest);
     }
 };
 
@@ -127,6 +129,7 @@ class Relaxer {
                 f += from * (push / d);
                 sums.contact += push;
                 sums.contacts += 1.0;
+                sums.deepest = std::max(sums.deepest, deep * depth);
             }
         }
         // The walls carry what pushes against them.
@@ -154,7 +157,7 @@ class Relaxer {
 } // namespace
 
 Packing pack(const Shape& shape, const std::vector<double>& radii, std::uint64_t seed, double tolerance, Relaxation& report,
-             const std::function<void(double)>& progress) {
+             const std::function<void(double)>& progress, double enough) {
     Random random(seed, Stream::positions);
     Packing p;
     const double x = shape.kind == ShapeKind::cylinder ? shape.diameter : shape.width;
@@ -174,6 +177,7 @@ Packing pack(const Shape& shape, const std::vector<double>& radii, std::uint64_t
         sorted.centre.push_back(p.centre.at(k));
         sorted.radius.push_back(p.radius[k]);
     }
+    report.number.assign(order.begin(), order.end());
     p = std::move(sorted);
 
     Relaxer relaxer(shape, p);
@@ -187,7 +191,8 @@ Packing pack(const Shape& shape, const std::vector<double>& radii, std::uint64_t
         const Sums s = relaxer.forces();
         const double n = static_cast<double>(p.radius.size());
         report.residual = s.contact > 0.0 ? (s.net / n) / (s.contact / s.contacts) : 0.0;
-        if (report.residual <= tolerance) {
+        report.largest_overlap = s.deepest;
+        if (report.residual <= tolerance || (enough > 0.0 && s.deepest <= enough)) {
             break;
         }
         first = std::max(first, report.residual);

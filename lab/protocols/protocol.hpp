@@ -89,6 +89,7 @@ struct Measured {
     const Press& press;
     double grain = 0.0;   ///< as in `InPress`, m
     double density = 0.0; ///< of the spheres or stones, kg/m3
+    double overlap = 0.0; ///< as `Model::largest_overlap`
 };
 
 /// One curve of a plot: columns of the curve, or of the energies, and how they are shown.

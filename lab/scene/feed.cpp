@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/geometry/hilbert.hpp"
+#include "lab/scene/growing.hpp"
 #include "lab/scene/vectors.hpp"
 #include "specimens/stones.hpp"
 
@@ -49,40 +49,35 @@ void Feed::place(const ParticleKind& kind, std::size_t number, const PlannedPart
     ++counts_[number].placed;
 }
 
-// Spheres around the particles are packed; then those that would reach into a surface are left out.
+// Spheres around the particles are packed; then those that would reach into a surface or into other particles are left out.
 void Feed::grow(std::size_t number, Room& room, Population& bodies, Population& alone) {
     const ParticleKind& kind = kinds_[number];
     const ParticleInput& p = scene_.particles[number];
     const auto box = box_of(p);
     std::vector<double> radii;
-    double volume = 0.0;
     for (const auto& planned : kind.plan) {
         radii.push_back(kind.reach_of(planned));
-        volume += 4.0 / 3.0 * std::numbers::pi * std::pow(radii.back(), 3);
     }
-    if (volume > 0.62 * box.volume()) {
-        throw input::InputError(
-            {{scene_.source, fmt::format("/particles/{}/count", number), fmt::format("{}", p.count),
-              fmt::format("at most about {:.0f}: spheres around the particles fill {:.2f} of the box, 0.62 can be packed",
-                          0.6 * box.volume() / volume * static_cast<double>(p.count), volume / box.volume()),
-              ""}});
+    const Grown grown = grow_in(box, radii, static_cast<std::uint64_t>(scene_.seed) * 1000 + number);
+    if (grown.number.size() < radii.size()) {
+        throw input::InputError({{scene_.source, fmt::format("/particles/{}/count", number), fmt::format("{}", p.count),
+                                  fmt::format("at most about {}: so many of these sizes fit into the box without overlaps above {:.2g} of "
+                                              "the smaller radius; spheres around the particles would fill {:.2f} of it",
+                                              grown.number.size(), most_grown_overlap, filled_share(box, radii)),
+                                  "fewer or smaller particles, or a larger box"}});
     }
-    Shape shape;
-    shape.kind = ShapeKind::prism;
-    shape.width = box.sizes().x();
-    shape.depth = box.sizes().y();
-    shape.height = box.sizes().z();
-    Relaxation report;
-    const Packing packing = pack(shape, radii, static_cast<std::uint64_t>(scene_.seed) * 1000 + number, 0.02, report);
-    const Vec3 shift(box.center().x(), box.center().y(), box.min().z());
-    for (std::size_t k = 0; k < kind.plan.size(); ++k) {
-        const Vec3 at = packing.centre.at(k) + shift;
-        if (room.beyond_surfaces(at, radii[k])) {
-            place(kind, number, kind.plan[k], at, any_attitude(random_), bodies, alone);
-            room.take(at, radii[k]);
+    std::vector<std::size_t> placed;
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+        const std::size_t n = grown.number[k];
+        if (room.is_free(grown.centre[k], radii[n])) {
+            place(kind, number, kind.plan[n], grown.centre[k], any_attitude(random_), bodies, alone);
+            placed.push_back(k);
         } else {
             ++counts_[number].left_out;
         }
+    }
+    for (const auto k : placed) { // those of a kind may touch each other
+        room.take(grown.centre[k], radii[grown.number[k]]);
     }
     next_look_[number] = std::numeric_limits<double>::infinity();
 }

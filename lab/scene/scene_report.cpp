@@ -23,9 +23,8 @@ std::vector<report::Scalar> results_of(const ScenePlay& play, const SceneSeen& s
         {"rms_speed", "Root mean square speed", s.rms_speed, "m/s", "of the particles' centres"},
         {"touching", "Contacts a particle", s.touching, "", "with others and surfaces, counted by spheres"},
     };
-    const auto overlaps = seen.curve.values("largest_overlap");
-    out.push_back({"largest_overlap", "Largest overlap", *std::max_element(overlaps.begin(), overlaps.end()), "",
-                   "of two spheres, or of a sphere and a surface, over the smaller radius, at any sample"});
+    out.push_back({"largest_overlap", "Largest overlap", play.model().largest_overlap(), "",
+                   "of two spheres, or of a sphere and a surface, over the smaller radius, at any step"});
     for (const auto& box : seen.measures) {
         out.push_back({"solid_fraction_" + box.name, "Solid fraction in " + box.name, box.solid_fraction, "",
                        "share of the box inside spheres, overlaps once"});
@@ -178,17 +177,20 @@ report::Record scene_record(const Scene& scene, const ScenePlay& play, const Sce
     }
     for (const auto& count : play.feed().counts()) {
         if (count.left_out > 0) {
-            r.warnings.push_back(fmt::format("{}: {} of {} would have reached into a surface and were left out.", count.name,
-                                             count.left_out, count.planned));
+            r.warnings.push_back(fmt::format("{}: {} of {} would have reached into a surface or another particle and were left out.",
+                                             count.name, count.left_out, count.planned));
         } else if (count.placed < count.planned) {
             r.warnings.push_back(fmt::format("{}: only {} of {} came in before the end.", count.name, count.placed, count.planned));
         }
+    }
+    if (const std::string soft = overlap_warning(play.model().largest_overlap()); !soft.empty()) {
+        r.warnings.push_back(soft);
     }
     if (play.feed().lost() > 0) {
         r.warnings.push_back(fmt::format("{} particles left the domain and were taken out.", play.feed().lost()));
     }
     if (play.model().dt() < play.model().first_dt()) {
-        r.warnings.push_back(fmt::format("The time step was shortened from {:.4g} s to {:.4g} s when contacts had become stiffer.",
+        r.warnings.push_back(fmt::format("The time step was shortened from {:.4g} s to {:.4g} s for faster impacts or stiffer contacts.",
                                          play.model().first_dt(), play.model().dt()));
     }
     for (std::size_t k = 0; k < scene.outlets.size(); ++k) {

@@ -3,6 +3,7 @@
 import json
 import math
 import pathlib
+import re
 
 from case import Case, main
 
@@ -122,6 +123,38 @@ class Scenes(Case):
         self.assertGreater(len(self.curve("particles.csv")), 25 * 4)
         mass = self.result()["results"]["mass"]["value"]
         self.assertAlmostEqual(mass, 25 * 2500 * math.pi / 6 * 0.02**3, delta=1e-6 * mass)
+
+    def test_a_graded_filling_grows_without_overlaps(self):
+        sieve = [{"diameter": "5 mm", "passing": 0}, {"diameter": "10 mm", "passing": 0.6}, {"diameter": "18 mm", "passing": 1}]
+        grown = dict(FALL, place="grow", count=300, grading=sieve, **{"from": ["-40 mm", "-40 mm", "0"], "to": ["40 mm", "40 mm", "80 mm"]})
+        content = scene(gravity=[0, 0, 0], surfaces=[], particles=[grown], stop={"time": 0.02})
+        self.run_scene(content)
+        rows = self.curve()
+        self.assertLess(float(rows[0]["largest_overlap"]), 0.05)
+        self.assertEqual(float(rows[-1]["particles"]), 300)
+        self.assertTrue(self.result()["verdicts"]["Energy balance"]["good"])
+        # Sizes come to where they were packed: the mass is that of the sieve curve's spheres.
+        volume = sum(4 / 3 * math.pi * float(r["radius_m"])**3 for r in self.rows(self.folder / "out" / "particles.csv"))
+        self.assertAlmostEqual(self.result()["results"]["mass"]["value"] / (2500 * volume), 1.0, delta=1e-9)
+        # Too many are refused with how many would do, and so many do.
+        grown["count"] = 3000
+        done = self.run_scene(content, code=2)
+        self.assertIn("/particles/0/count", done.stderr)
+        fits = int(re.search(r"at most about (\d+)", done.stderr).group(1))
+        grown["count"] = int(0.97 * fits)
+        self.run_scene(content, "--check")
+
+    def test_soft_particles_are_warned_of(self):
+        soft = dict(GRAIN, material=dict(GRAIN["material"], young_modulus="100 kPa"))
+        self.run_scene(scene(materials=[soft], stop={"time": 0.4}))
+        found = self.result()
+        self.assertGreater(found["results"]["largest_overlap"]["value"], 0.05)
+        self.assertIn("largest overlap", " ".join(found["warnings"]).lower())
+
+    def test_a_time_without_end_is_refused(self):
+        done = self.run_scene(scene(stop={"time": 1e9}), code=2)
+        self.assertIn("/stop/time", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
 
     def test_grown_particles_leave_out_what_stands_in_the_way(self):
         ball = {"name": "ball", "shape": "sphere", "radius": "30 mm", "position": [0, 0, "100 mm"]}

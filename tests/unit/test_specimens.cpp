@@ -12,6 +12,7 @@
 #include "specimens/hdf5_file.hpp"
 #include "specimens/import.hpp"
 #include "specimens/lattice.hpp"
+#include "specimens/packing.hpp"
 #include "specimens/statistics.hpp"
 #include "specimens/storage.hpp"
 #include "tests/support.hpp"
@@ -205,4 +206,32 @@ TEST_CASE("broken sphere meshes are refused with file and line") {
     CHECK(message("d.csv", "0,0,0,0.5\n").find("at least 2") != std::string::npos);
     CHECK(message("e.stl", "solid\n").find("unknown ending") != std::string::npos);
     CHECK(message("f.mdpa", "Begin Nodes\n1 0 0 0\n2 0 0 1\nEnd Nodes\n").find("2 of 2 nodes have no radius: 1, 2") != std::string::npos);
+}
+
+TEST_CASE("packing: spheres know their place in the list of radii, and relaxing ends with overlaps that are small enough") {
+    Shape box;
+    box.kind = ShapeKind::prism;
+    box.width = box.depth = box.height = 0.1;
+    std::vector<double> radii;
+    for (int k = 0; k < 300; ++k) {
+        radii.push_back(0.006 + 1e-5 * k); // no two alike; they fill half of the box
+    }
+    Relaxation report;
+    const Packing packing = pack(box, radii, 1, 1e-6, report, {}, 0.02);
+    REQUIRE(report.number.size() == radii.size());
+    bool sorted = true;
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+        CHECK(packing.radius[k] == radii[report.number[k]]);
+        sorted = sorted && report.number[k] == k;
+    }
+    CHECK_FALSE(sorted);
+    double deepest = 0.0;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        for (std::size_t j = i + 1; j < radii.size(); ++j) {
+            const double overlap = packing.radius[i] + packing.radius[j] - (packing.centre.at(i) - packing.centre.at(j)).norm();
+            deepest = std::max(deepest, overlap / std::min(packing.radius[i], packing.radius[j]));
+        }
+    }
+    CHECK(report.largest_overlap <= 0.02);
+    CHECK(deepest == Approx(report.largest_overlap).margin(1e-12));
 }
