@@ -38,7 +38,7 @@ struct NotCalibrated : std::runtime_error {
 /// averaged part of the stress (core/bonds/dilatation.hpp) may be used where the ratio k_t / k_n alone cannot give the card's nu; k_t / k_n
 /// is then 1 / (2 (1 + nu)) (5.17). nu is met to 2e-4, E exactly, both by the gauges of a uniaxial test between platens without
 /// friction (press_uniaxially): E is proportional to a, nu falls with k_t / k_n and grows with lambda; secants find both.
-/// Throws NotCalibrated.
+/// Throws NotCalibrated; also where the platens touch too few spheres, the network is in pieces (pressable.hpp) or its ends give way.
 ElasticCalibration calibrate_elasticity(const Shape& shape, const Spheres& spheres, const Material& material, bool averaged,
                                         const std::function<Bonds(const Material&)>& network);
 

@@ -35,6 +35,32 @@ class Elasticity(Case):
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("concrete_sfer", wrong.stderr)
 
+    def refused(self, spheres, *words):
+        """What a table of spheres x y z r is refused with, by `check`, `run` and `elastic` alike."""
+        (self.folder / "t.csv").write_text("x,y,z,r\n" + "".join("%.9g,%.9g,%.9g,%.9g\n" % tuple(s) for s in spheres))
+        self.assertEqual(self.run_program("specimen", "import", "t.csv", "t.h5", "--shape", "prism").returncode, 0)
+        deck = self.deck({"test": "ucs", "specimen": {"file": "t.h5"}})
+        for command in (["check", deck], ["run", deck, "--out", "r"], ["elastic", "t.h5"]):
+            done = self.run_program(*command)
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            for word in words:
+                self.assertIn(word, done.stderr)
+        self.assertFalse((self.folder / "r").exists())
+
+    @staticmethod
+    def lattice(n, radius, x=0.0):
+        return [(x + 2 * radius * i, 2 * radius * j, 2 * radius * k, radius) for i in range(n) for j in range(n) for k in range(2 * n)]
+
+    def test_what_platens_hardly_touch_is_refused(self):
+        block = self.lattice(5, 0.005)
+        proud = block + [(0.02, 0.02, -0.0099, 0.005), (0.02, 0.02, 0.0999, 0.005)]
+        self.refused(proud, "touch 1 and 1 spheres", "elasticity")
+
+    def test_pieces_are_refused(self):
+        block = self.lattice(4, 0.005)
+        other = self.lattice(4, 0.005, x=0.08)
+        self.refused(block + other, "2 pieces", "128 of 256 spheres")
+
     def test_the_factors_and_a_ratio_out_of_reach_are_reported(self):
         quick = {"rate": "0.2 m/s", "stop": {"axial_strain": 0.0002}}
         self.assertEqual(self.run_program("run", self.deck(loading=quick), "--out", "a", "--quiet").returncode, 0)
