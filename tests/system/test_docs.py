@@ -5,6 +5,7 @@ import pathlib
 import re
 import shlex
 import shutil
+import sys
 
 from case import Case, main
 
@@ -27,6 +28,15 @@ def inline_commands(page):
 
 
 class Docs(Case):
+    def test_measured_figures_stand_on_the_page_as_they_were_measured(self):
+        sys.path.insert(0, str(ROOT / "docs"))
+        import measure
+        page = (ROOT / "docs" / "results.md").read_text()
+        tables, measured = measure.read_tables(), measure.read_measured()
+        self.assertTrue(measured)
+        for name, kept in measured.items():
+            self.assertIn(f"<!-- measured: {name} -->\n\n{measure.markdown(tables[name], kept)}\n\n<!-- end -->", page)
+
     def shortened(self, words):
         """The same command, made cheap; without a folder of its own to go to, sweeps and calibrations are planned where they would be carried out."""
         verb = words[0]

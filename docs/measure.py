@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Measures the figures of docs/results.md anew, and writes them there.
+
+Usage: measure.py PROVETA [TABLE ...] [--runs FOLDER] [--jobs N] [--check]
+    PROVETA  the program
+    TABLE    names in docs/measures.json; none: all
+    --runs   folder that the runs are kept in: a measurement that was stopped goes on where it was
+    --jobs   tests side by side, each on one thread
+    --check  writes nothing; fails where a mean has moved by more than the row's scatter from what docs/measured.json holds
+
+A table stands in results.md between "<!-- measured: NAME -->" and "<!-- end -->". docs/measures.json says what each is made of: tests by
+their example, what is set in it and the seeds (1 unless said), and rows of results with the relative scatter between seeds that a mean may
+move by. docs/measured.json keeps every value with the program and the day that it was measured by.
+"""
+import argparse
+import concurrent.futures
+import datetime
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+DOCS = pathlib.Path(__file__).resolve().parent
+UNITS = {"": 1.0, "%": 1e2, "MPa": 1e-6, "GPa": 1e-9, "J/m2": 1.0}
+
+
+def read_tables():
+    tables = json.loads((DOCS / "measures.json").read_text())
+    for table in tables.values():
+        table["rows"] = [dict(zip(table["columns"], row)) for row in table["rows"]]
+    return tables
+
+
+def read_measured():
+    file = DOCS / "measured.json"
+    return json.loads(file.read_text()) if file.exists() else {}
+
+
+def measured_by(program):
+    return subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout.strip()
+
+
+def run(program, folder, test, seed):
+    """Results of one test: read from its folder if it is done there by the same program, else run."""
+    version = measured_by(program)
+    done = folder / "measured_by"
+    if not (done.exists() and done.read_text() == version):
+        command = [program, "run", DOCS.parent / "examples" / f"{test['deck']}.json", "--out", folder, "--threads", "1", "--quiet"]
+        for setting in [*test.get("set", []), f"specimen.seed={seed}", "output.fields=0"]:
+            command += ["--set", setting]
+        ran = subprocess.run(command, capture_output=True, text=True)
+        if ran.returncode != 0:
+            raise SystemExit(f"{folder}: exit {ran.returncode}: {ran.stderr.strip()}")
+        done.write_text(version)
+    return {name: result["value"] for name, result in json.loads((folder / "summary.json").read_text())["results"].items()}
+
+
+def measure(program, name, table, runs, pool):
+    """Values of each row, one a seed."""
+    def started(key, test, seed):
+        return pool.submit(run, program, runs / f"{name}-{key.replace(' ', '_')}-{seed}", test, seed)
+
+    found = {key: [started(key, test, seed) for seed in test.get("seeds", [1])] for key, test in table["tests"].items()}
+    values = {}
+    for row in table["rows"]:
+        values[row["row"]] = [future.result()[row["result"]] for future in found[row["test"]]]
+        if None in values[row["row"]]:
+            raise SystemExit(f"{name}: {row['row']}: a test did not determine its {row['result']}")
+    return values
+
+
+def digits(value):
+    return f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
+def markdown(table, measured):
+    out = [f"{table['about'][0].upper()}{table['about'][1:]}:", "", "| | deck | wanted | found | off |", "|---|---|---|---|---|"]
+    for row in table["rows"]:
+        test = table["tests"][row["test"]]
+        scaled = [value * UNITS[row["unit"]] for value in measured["values"][row["row"]]]
+        mean = statistics.fmean(scaled)
+        unit = f" {row['unit']}" if row["unit"] else ""
+        found = f"{digits(mean)}{unit}" + (f" ({', '.join(map(digits, scaled))})" if len(scaled) > 1 else "")
+        first, *last = (float(x) for x in re.findall(r"-?\d+\.?\d*", row["wanted"]))
+        wanted = row["wanted"] + (unit if row["wanted"] else "")
+        off = "" if not row["wanted"] else ("inside" if min(first, *last) <= mean <= max(first, *last) else "outside") if last else (
+            f"{100.0 * (mean / first - 1.0):+.1f} %")
+        out.append(f"| {row['row']} | `{test['deck']}` | {wanted} | {found} | {off} |")
+    settings = [f"{key}: `{', '.join(test['set'])}`" for key, test in table["tests"].items() if test.get("set")]
+    out += ["", f"Measured on {measured['date']} by {measured['by']}; `docs/measure.py PROVETA {measured['name']}`"
+            + (f" ({'; '.join(settings)})" if settings else "") + "."]
+    return "\n".join(out)
+
+
+def moved(table, before, after):
+    """What has moved by more than its scatter, in words."""
+    out = []
+    for row in table["rows"]:
+        was, now = (statistics.fmean(v[row["row"]]) for v in (before, after))
+        if abs(now - was) > row["scatter"] * abs(was):
+            out.append(f"{row['row']}: {digits(was * UNITS[row['unit']])} became {digits(now * UNITS[row['unit']])} {row['unit']}, "
+                       f"more than {100 * row['scatter']:g} %")
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("tables", nargs="*")
+    parser.add_argument("--runs", type=pathlib.Path, default=pathlib.Path("results/measured"))
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    tables = read_tables()
+    kept = read_measured()
+    if unknown := [name for name in arguments.tables if name not in tables]:
+        raise SystemExit(f"no table {', '.join(unknown)}; there are {', '.join(tables)}")
+    program = str(pathlib.Path(arguments.program).resolve())
+    page = (DOCS / "results.md").read_text()
+    worse = []
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        for name in arguments.tables or tables:
+            values = measure(program, name, tables[name], arguments.runs, pool)
+            if arguments.check:
+                worse += [f"{name}: {what}" for what in moved(tables[name], kept[name]["values"], values)]
+                continue
+            kept[name] = {"name": name, "date": datetime.date.today().isoformat(), "by": measured_by(program), "values": values}
+            (DOCS / "measured.json").write_text(json.dumps(kept, indent=1) + "\n")
+            begin = f"<!-- measured: {name} -->\n"
+            if begin not in page:
+                raise SystemExit(f"results.md has no place for {name}: {begin.strip()} ... <!-- end -->")
+            head, _, rest = page.partition(begin)
+            page = head + begin + "\n" + markdown(tables[name], kept[name]) + "\n\n<!-- end -->" + rest.partition("<!-- end -->")[2]
+            (DOCS / "results.md").write_text(page)
+    print("\n".join(worse) if worse else "as documented" if arguments.check else "docs/results.md is written")
+    return 1 if worse else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
