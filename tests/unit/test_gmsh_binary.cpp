@@ -134,7 +134,7 @@ std::string cube_of_version_4(GmshWriter out) {
         out.sizes({4});
         out.end();
         for (std::uint64_t k = 1; k <= 4; ++k) {
-            out.sizes({k + 4ULL * static_cast<std::uint64_t>(block)});
+            out.sizes({k + 4U * static_cast<std::uint64_t>(block)});
             out.end();
         }
         for (int k = 0; k < 4; ++k) {
