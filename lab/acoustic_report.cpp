@@ -99,7 +99,7 @@ report::Plot magnitude_plot(const std::vector<AcousticEvent>& events) {
     }
     plot.curves.push_back(std::move(counts));
     if (const auto law = magnitude_law(magnitudes)) {
-        report::Curve line{fmt::format("b = {:.3g} +- {:.1g}", law->b, law->error), {}, {}, "#c0392b", report::CurveStyle::dashed};
+        report::Curve line{fmt::format("b = {:.3g} \u00b1 {:.1g}", law->b, law->error), {}, {}, "#c0392b", report::CurveStyle::dashed};
         const double top = std::log10(static_cast<double>(law->events));
         line.x = {law->completeness, std::min(magnitudes.back(), law->completeness + top / law->b)};
         line.y = {top, top - law->b * (line.x[1] - line.x[0])};

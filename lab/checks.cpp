@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/input/units.hpp"
+#include "lab/deck_doubts.hpp"
 #include "specimens/memory.hpp"
 
 namespace proveta {
@@ -33,10 +34,11 @@ void add_areas(const Bench& bench, const Deck& deck, std::vector<std::string>& o
 } // namespace
 
 std::vector<std::string> warnings_of_deck(const Deck& deck) {
+    std::vector<std::string> out = doubts_of(deck);
     if (deck.material.values.status == "provisional") {
-        return {"The material card is provisional: " + deck.material.values.about + "."};
+        out.push_back("The material card is provisional: " + deck.material.values.about + ".");
     }
-    return {};
+    return out;
 }
 
 std::vector<std::string> warnings_in_press(const Bench& bench, const Deck& deck) {

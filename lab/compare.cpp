@@ -34,6 +34,11 @@ StoredResult read_result(const std::string& folder, const std::string& name, con
             out.results.push_back({key, key, value, input::text_at(found, "unit"), input::text_at(found, "formula")});
         }
     }
+    if (summary.contains("warnings") && summary["warnings"].is_array()) {
+        for (const auto& warning : summary["warnings"]) {
+            out.warnings.push_back(warning.is_string() ? warning.get<std::string>() : warning.dump());
+        }
+    }
     out.curve = read_csv((fs::path(folder) / "curve.csv").string());
     out.energy = read_csv((fs::path(folder) / "energy.csv").string());
     return out;
@@ -163,26 +168,28 @@ report::TextTable comparison_table(const std::vector<StoredResult>& tests) {
         }
     }
     for (const auto& name : result_names(tests)) {
-        // One unit a row, that of the first test that has a value: numbers of a row can be compared.
+        // One unit a row: its numbers can be compared.
         report::Scalar first{name, name, std::nullopt, "", ""};
+        std::vector<double> values;
         for (const auto& test : tests) {
-            if (const auto* r = find(test, name); r != nullptr && r->value && !first.value) {
+            if (const auto* r = find(test, name); r != nullptr && r->value) {
                 first = *r;
+                values.push_back(*r->value);
             }
         }
-        if (!first.value) {
+        if (values.empty()) {
             continue;
         }
-        const report::Scalar as = report::readable(first);
-        const double factor = *first.value != 0.0 ? *as.value / *first.value : 1.0;
-        std::vector<std::string> row{name, as.unit};
+        const report::InUnit shown(first, values);
+        std::vector<std::string> row{name, shown.unit};
         const report::Scalar* reference = find(tests.front(), name);
         for (std::size_t k = 0; k < tests.size(); ++k) {
             const auto* r = find(tests[k], name);
-            row.push_back(r != nullptr && r->value ? fmt::format("{:.5g}", factor * *r->value) : "-");
+            row.push_back(r != nullptr && r->value ? shown.text(*r->value) : "\u2013");
             if (k > 0) {
-                const auto off = r != nullptr && reference != nullptr ? difference(*reference, *r) : std::nullopt;
-                row.push_back(off ? fmt::format("{:+.2f} %", 100.0 * *off) : "-");
+                const auto off =
+                    r != nullptr && reference != nullptr && report::has_ratios(name) ? difference(*reference, *r) : std::nullopt;
+                row.push_back(off ? report::relative_change(*off) : "\u2013");
             }
         }
         table.rows.push_back(std::move(row));
@@ -264,6 +271,11 @@ report::Record comparison(const std::vector<StoredResult>& tests, const std::str
         if (test.test != tests.front().test) {
             record.warnings.push_back(
                 fmt::format("{} is a {} test, {} a {} test.", test.name, test.test, tests.front().name, tests.front().test));
+        }
+    }
+    for (const auto& test : tests) {
+        for (const auto& warning : test.warnings) {
+            record.warnings.push_back(test.name + ": " + warning);
         }
     }
     record.plots.push_back(overlay(tests, x, y));

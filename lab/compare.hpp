@@ -15,8 +15,9 @@ struct StoredResult {
     std::string test;
     std::string status;
     std::vector<report::Scalar> results;
-    report::Table curve;  ///< columns are named as in the file: "axial_stress_Pa"
-    report::Table energy; ///< the same
+    std::vector<std::string> warnings; ///< its own
+    report::Table curve;               ///< columns are named as in the file: "axial_stress_Pa"
+    report::Table energy;              ///< the same
 };
 
 /// Reads the results of tests; a series stands for its members. Throws InputError with every folder that holds none, saying why.

@@ -122,7 +122,7 @@ report::TextTable fragment_table(const Model& m) {
     report::TextTable t{"Fragments at the end: what bonds still hold together",
                         {{"Fragment", "Number", "Spheres", "Mass [kg]", "Share of the mass [%]"}}};
     const auto add = [&](const std::string& name, std::size_t n, const Piece& sum) {
-        t.rows.push_back({name, std::to_string(n), std::to_string(sum.spheres), fmt::format("{:.4g}", sum.mass),
+        t.rows.push_back({name, std::to_string(n), std::to_string(sum.spheres), report::three_digits(sum.mass),
                           fmt::format("{:.3g}", 100.0 * sum.mass / total)});
     };
     std::size_t n_rest = 0;
@@ -170,10 +170,10 @@ report::Section crack_section(const Bench& bench, const std::vector<FailureEvent
         tension += f.mode == FailureMode::tension ? f.area : 0.0;
     }
     const auto failed = std::count_if(facets.begin(), facets.end(), [](const auto& f) { return f.mode != FailureMode::intact; });
-    s.about =
-        fmt::format("{} of {} bonds failed, with {:.4g} cm2 of crack area, of which {:.3g} % in tension. Directions are those of the bonds "
-                    "before the test; a crack lies across its bond.",
-                    failed, facets.size(), 1e4 * area, area > 0.0 ? 100.0 * tension / area : 0.0);
+    s.about = fmt::format(
+        "{} of {} bonds failed, with {} cm\u00b2 of crack area, of which {:.3g} % in tension. Directions are those of the bonds "
+        "before the test; a crack lies across its bond.",
+        failed, facets.size(), report::three_digits(1e4 * area), area > 0.0 ? 100.0 * tension / area : 0.0);
     s.plots = {failure_histogram(events, 100.0 * bench.press.sense)};
     s.roses = {crack_dips(facets, axis)};
     if (!m.spheres.planar) {

@@ -48,7 +48,7 @@ std::optional<report::Plot> circles_of_test(const report::Table& curve, bool loo
         const double phi = std::asin(std::clamp(sine, -1.0, 1.0));
         const double reach = 1e-6 * axial[peak];
         plot.curves.push_back(
-            {fmt::format("phi = {:.3g} deg, no cohesion", phi * degrees), {0.0, reach}, {0.0, reach * std::tan(phi)}, "#c0392b"});
+            {fmt::format("\u03c6 = {:.3g}\u00b0, no cohesion", phi * degrees), {0.0, reach}, {0.0, reach * std::tan(phi)}, "#c0392b"});
     }
     return plot;
 }

@@ -10,6 +10,7 @@
 #include "lab/citation.hpp"
 #include "lab/crack_report.hpp"
 #include "lab/derived.hpp"
+#include "lab/doubts.hpp"
 #include "lab/mohr_report.hpp"
 #include "lab/quasi_static.hpp"
 #include "lab/specimen_report.hpp"
@@ -37,7 +38,8 @@ void add_sections(report::Record& r, const Deck& deck, const Bench& bench, const
 }
 
 // What a reader of the results should know.
-std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, const Bench& bench, const TestData& data) {
+std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, const Bench& bench, const TestData& data,
+                                     const Measured& measured) {
     std::vector<std::string> out;
     if (r.status == "interrupted") {
         out.emplace_back("This result is partial: the run was interrupted.");
@@ -49,8 +51,14 @@ std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, 
             out.push_back(badge.name + ": " + badge.verdict + ".");
         }
     }
+    const bool bonded = bench.model->bonds.size() > 0;
     const auto known = warnings_in_press(bench, deck);
     out.insert(out.end(), known.begin(), known.end());
+    for (auto&& doubts :
+         {bonded && !data.curve.rows.empty() ? doubts_about(deck.material.values, bench, r.results, measured) : std::vector<std::string>{},
+          deck.protocol->doubts(measured)}) {
+        out.insert(out.end(), doubts.begin(), doubts.end());
+    }
     if (const std::string made = coupling_warning(data.energy); !made.empty()) {
         out.push_back(made);
     }
@@ -59,7 +67,6 @@ std::vector<std::string> warnings_of(const report::Record& r, const Deck& deck, 
             out.push_back(fmt::format("The membrane leaked: {} contacts of particles whose centre lay beyond it.", body.crossings));
         }
     }
-    const bool bonded = bench.model->bonds.size() > 0;
     if (const std::string soft = overlap_warning(bonded ? 0.0 : bench.model->largest_overlap()); !soft.empty()) {
         out.push_back(soft);
     }
@@ -84,9 +91,16 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
     r.subtitle = fmt::format("{}, {}", info.title, deck.material.values.name);
     r.status = status;
     r.stopped_by = data.stopped_by;
+    const Measured measured{data.curve,
+                            data.energy,
+                            data.events,
+                            bench.specimen.shape,
+                            bench.press,
+                            bench.grain,
+                            bench.model->materials.front().density,
+                            bench.model->largest_overlap()};
     if (!data.curve.rows.empty()) {
-        r.results = deck.protocol->results({data.curve, data.energy, data.events, bench.specimen.shape, bench.press, bench.grain,
-                                            bench.model->materials.front().density, bench.model->largest_overlap()});
+        r.results = deck.protocol->results(measured);
         std::vector<std::vector<report::Scalar>> all{rate_results(data.curve, bench.press.sense)};
         if (bench.model->bonds.size() > 0) {
             all.push_back(acoustic_results(acoustic));
@@ -105,10 +119,10 @@ report::Record make_record(const Deck& deck, const Bench& bench, const TestData&
         }
     }
     r.badges = {quasi_static_verdict(data.curve, bench.press.sense, data.energy, data.rate_check), energy_verdict(data.energy)};
-    r.warnings = warnings_of(r, deck, bench, data);
+    r.warnings = warnings_of(r, deck, bench, data, measured);
     r.pictures = data.pictures;
     add_sections(r, deck, bench, data);
-    r.tables = {ledger_table(data.energy), standards_table(info), provenance_table(deck, bench)};
+    r.tables = {ledger_table(data.energy), standards_table(info), provenance_table(deck, bench, data.seconds)};
     r.citation = citation(info.title, deck.title, resolved(deck));
     return r;
 }

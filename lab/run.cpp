@@ -199,8 +199,9 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
         data.rate_check = check_rate(deck, bench.specimen, data.curve, again);
         data.interrupted = !data.rate_check && hooks.interrupted();
     }
+    data.seconds = before + since(loading);
     if (passage != Passage::report) {
-        sheet["wall_time_of_loading_s"] = before + since(loading);
+        sheet["wall_time_of_loading_s"] = data.seconds;
     }
 
     const RunStatus status = !data.failure.empty() ? RunStatus::failed : data.interrupted ? RunStatus::interrupted : RunStatus::complete;
@@ -229,7 +230,7 @@ Finished carry_out(const Deck& deck, Specimen specimen, OutputFolder& out, const
     report::write_file(out.file("report.html"), report::to_html(record));
     report::write_json(out.file("summary.json"), summary(record, bench, data));
     write_manifest(name(status)); // the last: who finds it complete finds all of it
-    return {status, std::move(record), main_curve(*deck.protocol, data)};
+    return {status, std::move(record), main_curve(*deck.protocol, data), data.seconds};
 }
 
 namespace {

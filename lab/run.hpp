@@ -45,6 +45,7 @@ struct Finished {
     RunStatus status = RunStatus::failed;
     report::Record record;
     MainCurve curve;
+    double seconds = 0.0; ///< that the loading took, by the clock on the wall
 };
 
 /// The user stopped a test before it began: nothing was cleared or written.

@@ -238,7 +238,7 @@ class Run {
         const Instruments::Mark mark{static_cast<double>(data_.stages.size() - 1), phase_of(stage.kind), drive_.pressure};
         instruments_.sample(bench_, mark, data_.curve, data_.energy);
         samples_ = static_cast<std::int64_t>(std::floor(whole * static_cast<double>(deck_.output.samples))) + 1;
-        if (stage.kind != Stage::Kind::preparing) {
+        if (stage.kind == Stage::Kind::loading) { // an unloading is no fall past the peak
             watch_.look(bench_, view_.stress() - drive_.pressure, view_.strain());
         }
         if (deck_.output.fields > 0 && whole * static_cast<double>(deck_.output.fields) >= static_cast<double>(fields_)) {

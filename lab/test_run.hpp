@@ -27,6 +27,7 @@ struct TestData {
     std::optional<RateCheck> rate_check; ///< empty: none was made
     std::string failure;                 ///< non-empty: the calculation failed, and how
     bool interrupted = false;
+    double seconds = 0.0; ///< that the loading took, by the clock on the wall
 };
 
 /// How a test is run other than as its deck says.

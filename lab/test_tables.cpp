@@ -1,8 +1,12 @@
 #include "lab/test_tables.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
+
+#include <filesystem>
 
 #include "core/input/units.hpp"
+#include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 
 namespace proveta {
@@ -64,7 +68,7 @@ report::Table event_table(const std::vector<FailureEvent>& events) {
 report::TextTable ledger_table(const report::Table& energy) {
     report::TextTable t{"Energy ledger at the end", {{"Term", "J", "What it is"}}};
     for (std::size_t k = 2; k < energy.columns.size() && !energy.rows.empty(); ++k) {
-        t.rows.push_back({energy.columns[k].name, fmt::format("{:.4g}", energy.rows.back()[k]), energy.columns[k].meaning});
+        t.rows.push_back({energy.columns[k].name, report::three_digits(energy.rows.back()[k]), energy.columns[k].meaning});
     }
     return t;
 }
@@ -117,14 +121,30 @@ report::TextTable standards_table(const ProtocolInfo& info) {
     return t;
 }
 
-report::TextTable provenance_table(const Deck& deck, const Bench& bench) {
+namespace {
+
+// Where the spheres come from: a seed, or the file they were imported from.
+std::string source_of(const Deck& deck, const Specimen& specimen) {
+    const std::string mesh = input::text_at(specimen.recipe, "imported_from");
+    const std::string from = !mesh.empty() ? "imported from " + mesh + " (axis " + input::text_at(specimen.recipe, "axis") + ")"
+                             : specimen.recipe.contains("seed") ? fmt::format("seed {}", specimen.recipe["seed"].dump())
+                                                                : "made outside this program";
+    const std::string stored = std::filesystem::path(deck.specimen.file).filename().string();
+    return stored.empty() ? from : from + ", stored as " + stored;
+}
+
+} // namespace
+
+report::TextTable provenance_table(const Deck& deck, const Bench& bench, double seconds) {
+    const int threads = omp_get_max_threads();
     return {"Provenance",
             {{"What", "Value"},
              {"Program", version_text()},
              {"Deck", deck.source},
-             {"Specimen", fmt::format("seed {}, hash {}", deck.specimen.seed, hex(bench.specimen_hash))},
+             {"Specimen", fmt::format("{}, hash {}", source_of(deck, bench.specimen), hex(bench.specimen_hash))},
              {"Steps", fmt::format("{} of {:.4g} s (stable step at least {:.4g} s)", bench.model->steps(), bench.model->dt(),
                                    bench.model->stable_step())},
+             {"Wall time", fmt::format("{} of loading, on {} thread{}", Progress::duration(seconds), threads, threads > 1 ? "s" : "")},
              {"Final state", hex(bench.model->state_hash())},
              {"To repeat", "proveta run manifest.json --out NEW_FOLDER"},
              {"Written", now_utc()}}};

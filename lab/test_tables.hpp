@@ -23,8 +23,8 @@ report::TextTable specimen_table(const Deck& deck, const Bench& bench);
 /// What of the standards a test mimics, and what not.
 report::TextTable standards_table(const ProtocolInfo& info);
 
-/// Program, deck, specimen and steps: what it takes to repeat the run.
-report::TextTable provenance_table(const Deck& deck, const Bench& bench);
+/// Program, deck, specimen and steps: what it takes to repeat the run. seconds: wall time of the loading.
+report::TextTable provenance_table(const Deck& deck, const Bench& bench, double seconds);
 
 /// What mass scaling did, in a sentence.
 std::string text_of(const MassScaling& scaling);

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/input/suggest.hpp"
+#include "core/input/units.hpp"
 #include "materials/builtin_cards.hpp"
 
 namespace proveta {
@@ -226,7 +227,27 @@ Material to_material(const Card& c) {
     return m;
 }
 
+std::vector<input::DeclaredQuantity> strengths_of(const Card& card) {
+    std::vector<input::DeclaredQuantity> out = input::quantities(card);
+    std::erase_if(out, [](const auto& q) { return q.unit != Unit::pressure || q.key == "young_modulus" || q.value <= 0.0; });
+    for (auto& q : out) {
+        q.value *= card.strength_factor;
+    }
+    return out;
+}
+
 void check_card(const Card& c, const std::string& source, const std::string& path, input::Problems& problems) {
+    constexpr double softest = 1e3; // Pa
+    for (const auto& q : c.young_modulus < softest ? strengths_of(c) : std::vector<input::DeclaredQuantity>{}) {
+        if (q.value > c.young_modulus) {
+            problems.push_back({source, path + "/young_modulus",
+                                fmt::format("{}, far below {} = {}", input::format_quantity(c.young_modulus, Unit::pressure), q.key,
+                                            input::format_quantity(q.value, Unit::pressure)),
+                                "the modulus of a material with these strengths",
+                                fmt::format("did you mean \"{} GPa\"?", input::format_number(c.young_modulus))});
+            break;
+        }
+    }
     if (c.area_factor.word == "auto" && c.area_rule != "minimum_radius") {
         problems.push_back({source, path + "/area_factor", "\"auto\" with the area rule " + c.area_rule,
                             "a number, or the area rule minimum_radius", "40 P / N_c corrects that rule's areas (5.4-5.6) and no other's"});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/input/json.hpp"
+#include "core/input/quantities.hpp"
 #include "core/laws/material.hpp"
 
 namespace proveta {
@@ -66,6 +67,9 @@ void declare(input::Visitor& v, MaterialInput& material);
 /// folder: where relative file names start; source and path: the object's place, for messages.
 void preload(const input::Json& json, MaterialInput& material, const std::string& folder, const std::string& source,
              const std::string& path, input::Problems& problems);
+
+/// Stresses of the card's law above 0 as its strength_factor leaves them, Pa.
+std::vector<input::DeclaredQuantity> strengths_of(const Card& card);
 
 /// What a card's numbers contradict, each as a problem.
 void check_card(const Card& card, const std::string& source, const std::string& path, input::Problems& problems);

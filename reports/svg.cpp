@@ -49,8 +49,8 @@ Chart chart_of(const Plot& plot, const PlotLook& look) {
     constexpr double none = std::numeric_limits<double>::infinity();
     double x0 = plot.x_from_zero ? 0.0 : none;
     double x1 = plot.x_from_zero ? 0.0 : -none;
-    double y0 = 0.0;
-    double y1 = 0.0;
+    double y0 = plot.y_from_zero ? 0.0 : none;
+    double y1 = plot.y_from_zero ? 0.0 : -none;
     for (const auto& c : plot.curves) {
         for (std::size_t k = 0; k < c.x.size(); ++k) {
             if (std::isfinite(c.x[k]) && std::isfinite(c.y[k])) {
@@ -63,7 +63,10 @@ Chart chart_of(const Plot& plot, const PlotLook& look) {
     }
     const double wide = look.letters * 0.55; // of a letter, about
     const double rows = static_cast<double>(plot.rows.size());
-    Chart out{x0 <= x1 ? Axis(x0, x1) : Axis(0.0, 1.0), Axis(y0, y1), {}, plot.rows.empty() ? look.height : 110 + 36 * rows};
+    Chart out{x0 <= x1 ? Axis(x0, x1) : Axis(0.0, 1.0),
+              y0 <= y1 ? Axis(y0, y1) : Axis(0.0, 1.0),
+              {},
+              plot.rows.empty() ? look.height : 110 + 36 * rows};
     double left = 66;
     for (const auto& row : plot.rows) {
         left = std::max(left, 24 + wide * static_cast<double>(row.size()));

@@ -106,10 +106,10 @@ std::string to_svg(const Rose& rose) {
                                a.x, a.y, r, r, b.x, b.y);
         }
     }
-    out += text({quarter > 0.0 ? -20.0 : 0.0, -reach - 8.0}, quarter > 0.0 ? "start" : "middle", "0 deg");
+    out += text({quarter > 0.0 ? -20.0 : 0.0, -reach - 8.0}, quarter > 0.0 ? "start" : "middle", "0\u00b0");
     if (quarter > 0.0) {
         out += fmt::format("<path d=\"M0 {:.1f}V0H{:.1f}\" fill=\"none\" stroke=\"#8a949e\"/>\n", -reach - 4.0, reach + 4.0);
-        out += text({reach, 14.0}, "end", "90 deg") + text(at(45.0, reach + 8.0), "start", "45");
+        out += text({reach, 14.0}, "end", "90\u00b0") + text(at(45.0, reach + 8.0), "start", "45");
     } else {
         out += text({reach + 4.0, 4.0}, "start", "90") + text({0.0, reach + 18.0}, "middle", turns > 1 ? "0 = 180" : "180");
     }

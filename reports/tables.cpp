@@ -66,7 +66,7 @@ std::string table(const std::vector<Scalar>& results) {
     for (const auto& result : results) {
         const Scalar r = readable(result);
         const std::string value =
-            r.value ? fmt::format("<td class=\"num\">{:.5g}</td>", *r.value) : "<td class=\"none\">not determined</td>";
+            r.value ? fmt::format("<td class=\"num\">{}</td>", three_digits(*r.value)) : "<td class=\"none\">not determined</td>";
         out += fmt::format("<tr><th scope=\"row\">{}</th>{}<td class=\"unit\">{}</td><td class=\"how\">{}</td></tr>\n", escape(r.title),
                            value, r.value ? escape(r.unit) : "", escape(r.formula));
     }

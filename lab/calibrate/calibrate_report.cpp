@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "lab/calibrate/calibrate_plots.hpp"
 #include "lab/citation.hpp"
+#include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 #include "lab/trials/verdicts.hpp"
 
@@ -15,15 +17,12 @@ namespace proveta {
 
 namespace {
 
-using report::Curve;
-using report::CurveStyle;
-using report::Plot;
 using report::TextTable;
 
 // A value in the unit that people use.
-std::string shown(double value, const std::string& unit) {
-    const auto r = report::readable({"", "", value, unit, ""});
-    return fmt::format("{:.4g}{}{}", r.value.value_or(value), r.unit.empty() ? "" : " ", r.unit);
+std::string shown(const std::string& name, double value, const std::string& unit) {
+    const auto r = report::readable({name, "", value, unit, ""});
+    return report::three_digits(r.value.value_or(value)) + (r.unit.empty() ? "" : " " + r.unit);
 }
 
 // A result in the unit that its jobs give it.
@@ -31,19 +30,10 @@ std::string shown_result(double value, const Target& target, const TrialResult& 
     for (const auto& job : trial.jobs) {
         const auto unit = job.units.find(target.input.result);
         if (job.test == target.input.test && unit != job.units.end()) {
-            return shown(value, unit->second);
+            return shown(target.input.result, value, unit->second);
         }
     }
-    return shown(value, "");
-}
-
-const TrialResult& result_for(const Target& target, const std::vector<Target>& targets, const CalibrationOutcome& outcome) {
-    for (const auto& t : targets) {
-        if (t.input.test == target.input.test && t.input.fitted()) {
-            return outcome.best_trial().result;
-        }
-    }
-    return outcome.predictions;
+    return shown(target.input.result, value, "");
 }
 
 TextTable targets_table(const std::vector<Target>& targets, const CalibrationOutcome& outcome, const TrialFolders& folders, bool fitted) {
@@ -67,6 +57,57 @@ TextTable targets_table(const std::vector<Target>& targets, const CalibrationOut
     return table;
 }
 
+constexpr double hardly_told = 0.25; // standard error over the range
+
+// A position between a parameter's bounds that is one of them.
+bool at_bound(double u) { return u < 0.02 || u > 0.98; }
+
+std::string range_of(const Parameter& p) {
+    const std::string unit = p.times.empty() ? p.unit : "";
+    return fmt::format("{} to {}", shown(p.name, p.low, unit), shown(p.name, p.high, unit));
+}
+
+// What keeps the card from being taken at its word.
+std::vector<std::string> doubts(const CalibrationPlan& plan, const std::vector<Target>& targets, const CalibrationOutcome& outcome,
+                                const TrialFolders& folders) {
+    std::vector<std::string> out;
+    for (const auto& t : targets) {
+        const TrialResult& trial = result_for(t, targets, outcome);
+        const Comparison c = compare(t, trial, folders);
+        if (!c.found || std::fabs(c.distance) > t.input.tolerance) {
+            const std::string found = !c.found ? "not determined"
+                                      : t.input.is_curve()
+                                          ? fmt::format("{:.1f} % off (root mean square)", 100.0 * c.distance)
+                                          : fmt::format("{} where {} is wanted ({:+.1f} %)", shown_result(c.value, t, trial),
+                                                        shown_result(t.input.value, t, trial), 100.0 * c.distance);
+            out.push_back(fmt::format("{} missed, {}: {}; its tolerance is {:.3g} %.", t.input.fitted() ? "Target" : "Prediction",
+                                      t.input.title(), found, 100.0 * t.input.tolerance));
+        }
+    }
+    const auto& best = outcome.best_trial();
+    const auto own = plan.space.values(best.u);
+    for (std::size_t k = 0; k < plan.space.size(); ++k) {
+        const auto& p = plan.space[k];
+        const std::string value = p.name + " = " + shown(p.name, own[k], p.times.empty() ? p.unit : "");
+        if (at_bound(best.u[k])) {
+            out.push_back(fmt::format("{} is at a bound of {}: the best may lie beyond; widen it.", value, range_of(p)));
+        }
+        if (outcome.confidence && outcome.confidence->standard_error[k] > hardly_told) {
+            out.push_back(fmt::format("{} is hardly told by these targets: its standard error is {}.", value,
+                                      outcome.confidence->standard_error[k] > 1.0
+                                          ? std::string("more than its whole range")
+                                          : fmt::format("{:.0f} % of its range", 100.0 * outcome.confidence->standard_error[k])));
+        }
+    }
+    if (outcome.confidence && best.deviations.score() < outcome.confidence->noise_of_score) {
+        out.push_back(
+            fmt::format("The score of {} lies below its noise floor of {}: by as much single specimens of one card differ, so that "
+                        "the targets cannot tell this card from others near it.",
+                        report::three_digits(best.deviations.score()), report::three_digits(outcome.confidence->noise_of_score)));
+    }
+    return out;
+}
+
 TextTable parameters_table(const CalibrationPlan& plan, const CalibrationOutcome& outcome) {
     TextTable table{"Parameters", {{"Parameter", "Value", "Bounds", "Standard error", "Remark"}}};
     const auto& best = outcome.best_trial();
@@ -78,14 +119,15 @@ TextTable parameters_table(const CalibrationPlan& plan, const CalibrationOutcome
         std::string remark;
         if (outcome.confidence) {
             const double e = outcome.confidence->standard_error[k];
-            error = "+- " + shown(0.5 * std::fabs(p.at(best.u[k] + e) - p.at(best.u[k] - e)), unit);
-            remark = e > 0.25 ? "hardly told by these targets" : "";
+            error = e > 0.5 ? "more than half the range"
+                            : "\u00b1 " + shown(p.name, 0.5 * std::fabs(p.at(best.u[k] + e) - p.at(best.u[k] - e)), unit);
+            remark = e > hardly_told ? "hardly told by these targets" : "";
         }
-        if (best.u[k] < 0.02 || best.u[k] > 0.98) {
+        if (at_bound(best.u[k])) {
             remark += std::string(remark.empty() ? "" : "; ") + "at a bound: widen it";
         }
-        table.rows.push_back({p.name + (p.times.empty() ? "" : " (times " + p.times + ")"), shown(own[k], unit),
-                              fmt::format("{} to {}", shown(p.low, unit), shown(p.high, unit)), error, remark});
+        table.rows.push_back(
+            {p.name + (p.times.empty() ? "" : " (times " + p.times + ")"), shown(p.name, own[k], unit), range_of(p), error, remark});
     }
     return table;
 }
@@ -109,92 +151,9 @@ TextTable rounds_table(const CalibrationOutcome& outcome) {
     TextTable table{"Rounds on whole specimens", {{"Round", "Score expected from small specimens", "Score found"}}};
     for (std::size_t k = 0; k < outcome.rounds.size(); ++k) {
         table.rows.push_back(
-            {std::to_string(k + 1), fmt::format("{:.3f}", outcome.rounds[k].expected), fmt::format("{:.3f}", outcome.rounds[k].score)});
+            {std::to_string(k + 1), report::three_digits(outcome.rounds[k].expected), report::three_digits(outcome.rounds[k].score)});
     }
     return table;
-}
-
-Plot progress_plot(const CalibrationOutcome& outcome) {
-    Plot plot{"The search: score (weighted root mean square deviation, in tolerances)", "trial", "score", {}, {}};
-    Curve small{"small specimens", {}, {}, "#9aa5b1", CurveStyle::points};
-    Curve best{"best so far", {}, {}, "#1f4e79"};
-    Curve whole{"whole specimens", {}, {}, "#c0392b", CurveStyle::points};
-    double least = INFINITY;
-    for (std::size_t k = 0; k < outcome.trials.size(); ++k) {
-        const auto& t = outcome.trials[k];
-        if (!t.deviations.complete) {
-            continue;
-        }
-        const double score = std::min(t.deviations.score(), missing_deviation);
-        (t.whole ? whole : small).x.push_back(static_cast<double>(k + 1));
-        (t.whole ? whole : small).y.push_back(score);
-        if (!t.whole && score < least) {
-            least = score;
-            best.x.push_back(static_cast<double>(k + 1));
-            best.y.push_back(score);
-        }
-    }
-    plot.curves = {small, best, whole};
-    return plot;
-}
-
-Plot profile_plot(const CalibrationPlan& plan, const Confidence& c) {
-    Plot plot{"Profiles: score with one parameter moved, the others at the best (small specimens, corrected)",
-              "position between the parameter's bounds",
-              "score",
-              {},
-              {}};
-    for (std::size_t k = 0; k < c.profiles.size(); ++k) {
-        Curve curve{plan.space[k].name, {}, {}};
-        tell_apart(curve, k);
-        for (std::size_t p = 0; p < c.profiles[k].u.size(); ++p) {
-            if (std::isfinite(c.profiles[k].score[p])) {
-                curve.x.push_back(c.profiles[k].u[p]);
-                curve.y.push_back(c.profiles[k].score[p]);
-            }
-        }
-        plot.curves.push_back(std::move(curve));
-    }
-    plot.x_from_zero = true;
-    return plot;
-}
-
-std::string axis_of(const std::string& quantity) {
-    return quantity == "total_stress"        ? "total axial stress [MPa]"
-           : quantity == "deviatoric_stress" ? "deviatoric stress [MPa]"
-           : quantity == "axial_strain"      ? "axial strain, platens [%]"
-           : quantity == "gauge_strain"      ? "axial strain, gauge [%]"
-           : quantity == "volumetric_strain" ? "volumetric strain [%]"
-                                             : "circumferential strain [%]";
-}
-
-double scale_of(const std::string& quantity) { return quantity.ends_with("stress") ? 1e-6 : 100.0; }
-
-std::vector<Plot> curve_plots(const std::vector<Target>& targets, const CalibrationOutcome& outcome, const TrialFolders& folders) {
-    std::vector<Plot> out;
-    for (const auto& t : targets) {
-        if (!t.input.is_curve()) {
-            continue;
-        }
-        const Comparison c = compare(t, result_for(t, targets, outcome), folders);
-        const double sx = scale_of(t.input.x);
-        const double sy = scale_of(t.input.y);
-        Plot plot{t.input.test + (t.input.fitted() ? " (fitted)" : " (predicted)"), axis_of(t.input.x), axis_of(t.input.y), {}, {}};
-        Curve wanted{t.input.kind, {}, {}, "#111111", CurveStyle::points};
-        const auto& all = t.file.measured;
-        Curve found{"this card, mean over specimens", {}, {}, t.input.fitted() ? "#1f4e79" : "#c0392b"};
-        for (std::size_t k = 0; k < all.x.size(); k += all.x.size() / 60 + 1) { // so many that they can be told apart
-            wanted.x.push_back(sx * all.x[k]);
-            wanted.y.push_back(sy * all.y[k]);
-        }
-        for (std::size_t k = 0; c.found && k < c.curve.x.size(); ++k) {
-            found.x.push_back(sx * c.curve.x[k]);
-            found.y.push_back(sy * c.curve.y[k]);
-        }
-        plot.curves = {found, wanted};
-        out.push_back(std::move(plot));
-    }
-    return out;
 }
 
 // What the targets and the data were taken to be.
@@ -293,6 +252,13 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
             r.warnings.push_back(job.name + " of the best trial was not quasi-static by its own verdict.");
         }
     }
+    for (auto& doubt : doubts(plan, targets, outcome, folders)) {
+        r.warnings.push_back(std::move(doubt));
+    }
+    double seconds = outcome.predictions.seconds();
+    for (const auto& t : outcome.trials) {
+        seconds += t.result.seconds();
+    }
     r.results.push_back({"score", "Score of the card", best.deviations.score(), "",
                          "weighted root mean square deviation from the fitted targets, in tolerances"});
     if (outcome.confidence) {
@@ -312,10 +278,9 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
     for (std::size_t k = 0; k < std::min<std::size_t>(plan.space.size(), 2); ++k) {
         const auto& p = plan.space[k];
         const std::string unit = p.times.empty() ? p.unit : "";
-        const auto read = report::readable({"", "", values[k], unit, ""});
-        r.key_figures.push_back({p.name + (p.times.empty() ? "" : " over " + p.times),
-                                 fmt::format("{:.4g}", read.value.value_or(values[k])), read.unit,
-                                 fmt::format("sought from {} to {}", shown(p.low, unit), shown(p.high, unit))});
+        const auto read = report::readable({p.name, "", values[k], unit, ""});
+        r.key_figures.push_back({p.name + (p.times.empty() ? "" : " over " + p.times), report::three_digits(read.value.value_or(values[k])),
+                                 read.unit, "sought from " + range_of(p)});
     }
     r.citation = citation("Calibration", plan.input.title, plan.written);
     r.plots = curve_plots(targets, outcome, folders);
@@ -332,6 +297,7 @@ report::Record calibration_record(const CalibrationPlan& plan, const std::vector
                         {{"What", "Value"},
                          {"Program", version_text()},
                          {"Calibration", plan.source},
+                         {"Wall time", Progress::duration(seconds) + " of all trials together"},
                          {"Every trial", "ledger.jsonl, trials.csv and the folders in trials"},
                          {"To repeat", "proveta calibrate manifest.json --out NEW_FOLDER"}}});
     return r;

@@ -1,6 +1,7 @@
 // proveta run, proveta check
 #include <fmt/format.h>
 #include <omp.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <memory>

@@ -151,6 +151,8 @@ class Protocol {
     [[nodiscard]] virtual std::optional<std::string> stop(const BenchView& bench) const = 0;
     /// Part 5.
     [[nodiscard]] virtual std::vector<report::Scalar> results(const Measured& measured) const = 0;
+    /// What of the data says that a result is not what its name says, each a sentence.
+    [[nodiscard]] virtual std::vector<std::string> doubts(const Measured&) const { return {}; }
     /// What the report draws, before failed bonds and energies.
     [[nodiscard]] virtual std::vector<PlotSpec> plots() const = 0;
 };

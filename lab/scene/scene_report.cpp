@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lab/citation.hpp"
+#include "lab/progress.hpp"
 #include "lab/provenance.hpp"
 #include "lab/quasi_static.hpp"
 #include "lab/summary.hpp"
@@ -42,7 +43,7 @@ report::Badge energy_badge(const Model& m) {
     const double found = std::fabs(m.ledger().relative_residual());
     report::Badge badge{"Energy balance", found <= most, "", {}};
     badge.verdict = badge.good ? "closed" : "not closed: the time step is too large or the calculation lost its footing";
-    badge.figures = {{"residual over the energy given", fmt::format("{:.2g} (at most {:.2g})", found, most)}};
+    badge.figures = {{"residual over the energy given", fmt::format("{:.2g} % (allowed {:.2g} %)", 100.0 * found, 100.0 * most)}};
     return badge;
 }
 
@@ -88,7 +89,7 @@ std::vector<report::TextTable> tables_of(const Scene& scene, const ScenePlay& pl
     report::TextTable ledger{"Energy ledger at the end", {{"Term", "J", "What it is"}}};
     for (std::size_t k = 1; k < seen.energy.columns.size(); ++k) {
         ledger.rows.push_back(
-            {seen.energy.columns[k].name, fmt::format("{:.4g}", seen.energy.rows.back()[k]), seen.energy.columns[k].meaning});
+            {seen.energy.columns[k].name, report::three_digits(seen.energy.rows.back()[k]), seen.energy.columns[k].meaning});
     }
     report::TextTable kinds{"Particles", {{"Kind", "Came", "Of", "What they are"}}};
     for (std::size_t k = 0; k < play.feed().counts().size(); ++k) {
@@ -113,9 +114,9 @@ std::vector<report::TextTable> tables_of(const Scene& scene, const ScenePlay& pl
          {"Scene", scene.source},
          {"Steps", fmt::format("{} of {:.4g} s, {} searches, skin {:.3g} of the mean radius at the end", m.steps(), m.dt(), m.searches(),
                                m.skin() / mean_radius(play.feed().kinds()))},
-         {"Wall time", fmt::format("{:.1f} s on {} threads: {:.3g} steps of a sphere a second; searching {:.0f} %, forces {:.0f} %, motion "
+         {"Wall time", fmt::format("{} on {} threads: {:.3g} steps of a sphere a second; searching {:.0f} %, forces {:.0f} %, motion "
                                    "{:.0f} %",
-                                   seen.seconds, omp_get_max_threads(), sphere_steps / std::max(seen.seconds, 1e-9),
+                                   Progress::duration(seen.seconds), omp_get_max_threads(), sphere_steps / std::max(seen.seconds, 1e-9),
                                    100.0 * t.search / (t.search + t.forces + t.motion), 100.0 * t.forces / (t.search + t.forces + t.motion),
                                    100.0 * t.motion / (t.search + t.forces + t.motion))},
          {"Final state", hex(m.state_hash())},

@@ -96,14 +96,14 @@ std::vector<report::Scalar> envelope_results(const StrengthEnvelope& e) {
              of_line("phi = 2 atan(sqrt K) - 90 deg")},
             {"friction_angle_error", "Its standard error", in_degrees(mc ? mc->friction_angle_error : none), "deg",
              of_line("from the scatter about the line; needs three tests")},
-            {"mohr_coulomb_r2", "Mohr-Coulomb: r^2", mc ? std::optional(mc->r2) : none, "",
+            {"mohr_coulomb_r2", "Mohr-Coulomb: r\u00b2", mc ? std::optional(mc->r2) : none, "",
              of_line("1 - squared residuals of sigma_1 over its squared deviations from the mean")},
             {"sigma_ci", "Hoek-Brown: sigma_ci", hb ? std::optional(hb->sigma_ci) : none, "Pa",
              of_curve("sigma_1 = sigma_3 + sigma_ci sqrt(m_i sigma_3 / sigma_ci + 1) by least squares")},
             {"m_i", "Hoek-Brown: m_i", hb ? std::optional(hb->m_i) : none, "", of_curve("the same fit")},
             {"hoek_brown_tensile_strength", "Hoek-Brown: tensile strength", hb ? std::optional(hb->tensile_strength()) : none, "Pa",
              of_curve("sigma_ci (sqrt(m_i^2 + 4) - m_i) / 2, where the fit has sigma_1 = 0; extrapolated unless tension was tested")},
-            {"hoek_brown_r2", "Hoek-Brown: r^2", hb ? std::optional(hb->r2) : none, "",
+            {"hoek_brown_r2", "Hoek-Brown: r\u00b2", hb ? std::optional(hb->r2) : none, "",
              of_curve("1 - squared residuals of sigma_1 over its squared deviations from the mean")}};
 }
 
@@ -120,7 +120,7 @@ report::Plot mohr_plot(const StrengthEnvelope& e) {
         const StrengthLine& line = e.mohr_coulomb->line;
         plot.curves.push_back(envelope_of(line, largest));
         plot.title +=
-            fmt::format(" Mohr-Coulomb: c = {:.3g} MPa, phi = {:.3g} deg.", line.cohesion() / mega, line.friction_angle() / degree);
+            fmt::format(" Mohr-Coulomb: c = {:.3g} MPa, \u03c6 = {:.3g}\u00b0.", line.cohesion() / mega, line.friction_angle() / degree);
     }
     if (e.hoek_brown) {
         plot.curves.push_back(envelope_of(*e.hoek_brown, largest));

@@ -20,6 +20,7 @@ struct MemberResult {
     bool unwritten = false;                   ///< it failed because its files could not be written
     std::vector<input::Problem> refused = {}; ///< it failed because of these: its checkpoints, say
     std::optional<MainCurve> curve;
+    double seconds = 0.0; ///< wall time of the loading
 
     [[nodiscard]] bool complete() const { return status == "complete"; }
 

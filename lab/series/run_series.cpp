@@ -218,6 +218,7 @@ MemberResult run_member(const Member& member, Specimen specimen, OutputFolder& f
         result.badges = std::move(finished.record.badges);
         result.warnings = std::move(finished.record.warnings);
         result.curve = std::move(finished.curve);
+        result.seconds = finished.seconds;
     } catch (const StoppedBefore&) { // it stays one that was not run
     } catch (const FileError& e) {
         result.status = "failed";
@@ -343,9 +344,13 @@ RunStatus carry_out_series(const Plan& plan, const RunOptions& options, int thre
     report::Record record = series_record(plan, results);
     record.plots.insert(record.plots.begin(), extra.plots.begin(), extra.plots.end());
     record.overview.insert(record.overview.begin(), extra.tables.begin(), extra.tables.end());
+    if (!extra.key_figures.empty()) {
+        record.key_figures.assign(extra.key_figures.begin(),
+                                  extra.key_figures.begin() + std::min<std::ptrdiff_t>(4, std::ssize(extra.key_figures)));
+    }
     record.warnings.insert(record.warnings.begin(), extra.warnings.begin(), extra.warnings.end());
     if (!extra.csv_name.empty()) {
-        report::write_file(out.file(extra.csv_name), report::to_csv(extra.tables.front()));
+        report::write_file(out.file(extra.csv_name), report::to_csv(extra.csv));
     }
     for (const auto& group : results.groups) {
         if (group.mean) {

@@ -12,10 +12,12 @@ namespace proveta {
 /// What someone who has planned a series makes of it besides.
 struct SeriesExtra {
     std::vector<report::Scalar> results;
-    std::vector<report::Plot> plots;       ///< shown before the series' own
-    std::vector<report::TextTable> tables; ///< the same
+    std::vector<report::Plot> plots;            ///< shown before the series' own
+    std::vector<report::TextTable> tables;      ///< the same
+    std::vector<report::KeyFigure> key_figures; ///< in the place of the series' own, if there are any
     std::vector<std::string> warnings;
-    std::string csv_name; ///< file for the first table; empty: none
+    std::string csv_name;  ///< file for `csv`; empty: none
+    report::TextTable csv; ///< SI units
 };
 using SeriesStudy = std::function<SeriesExtra(const std::vector<MemberResult>&)>;
 

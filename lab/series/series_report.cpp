@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lab/citation.hpp"
+#include "lab/progress.hpp"
 
 namespace proveta {
 
@@ -14,30 +15,15 @@ namespace {
 
 constexpr std::size_t most_named = 10; // curves of a plot that a key can still tell apart
 
-// A result in the unit that suits the largest of several values.
-struct InUnit {
-    std::string unit;
-    double factor = 1.0;
-
-    InUnit(const report::Scalar& scalar, const std::vector<double>& values) : unit(scalar.unit) {
-        report::Scalar largest = scalar;
-        largest.value = 0.0;
-        for (const double v : values) {
-            largest.value = std::max(*largest.value, std::fabs(v));
-        }
-        const report::Scalar read = report::readable(largest);
-        unit = read.unit;
-        factor = *largest.value > 0.0 ? *read.value / *largest.value : 1.0;
-    }
-    [[nodiscard]] std::string text(double value) const { return fmt::format("{:.5g}", value * factor); }
-};
+using report::InUnit;
 
 report::TextTable member_table(const SeriesResults& r) {
-    report::TextTable t{"Tests", {{"Test", "Kind", "Status", "Ended by"}}};
+    report::TextTable t{"Tests", {{"Test", "Kind", "Status", "Ended by", "Wall time"}}};
     const auto badges = all_badges(r.members);
     t.rows.front().insert(t.rows.front().end(), badges.begin(), badges.end());
     for (const auto& m : r.members) {
-        std::vector<std::string> row{m.member->name, m.member->deck.test, m.status, m.stopped_by};
+        std::vector<std::string> row{m.member->name, m.member->deck.test, m.status, m.stopped_by,
+                                     m.seconds > 0.0 ? Progress::duration(m.seconds) : ""};
         for (const auto& name : badges) {
             const auto badge = std::find_if(m.badges.begin(), m.badges.end(), [&](const auto& b) { return b.name == name; });
             row.push_back(badge == m.badges.end() ? "" : badge->good ? "good" : badge->verdict.substr(0, badge->verdict.find(':')));
@@ -84,7 +70,7 @@ report::TextTable formula_table(const SeriesResults& r) {
 
 report::TextTable statistics_table(const SeedGroup& group) {
     report::TextTable t{fmt::format("{}: {} specimens that differ in their seed", group.name, group.members.size()),
-                        {{"Result", "Unit", "n", "Mean", "Deviation", "Variation [%]", "95 % of the mean, +-", "Least", "Most"}}};
+                        {{"Result", "Unit", "n", "Mean", "Deviation", "Variation [%]", "95 % of the mean, \u00b1", "Least", "Most"}}};
     for (const auto& [scalar, sample] : group.statistics) {
         if (sample.n == 0) {
             t.rows.push_back({scalar.title, scalar.unit, "0"});
@@ -95,7 +81,8 @@ report::TextTable statistics_table(const SeedGroup& group) {
         std::vector<std::string> row{scalar.title, shown.unit, std::to_string(sample.n), shown.text(sample.mean)};
         if (spread) {
             row.insert(row.end(),
-                       {shown.text(spread->deviation), spread->variation ? fmt::format("{:.3g}", 100.0 * *spread->variation) : "",
+                       {shown.text(spread->deviation),
+                        spread->variation && report::has_ratios(scalar.name) ? report::three_digits(100.0 * *spread->variation) : "",
                         shown.text(spread->half_width), shown.text(spread->least), shown.text(spread->most)});
         }
         t.rows.push_back(std::move(row));
@@ -169,8 +156,8 @@ std::vector<report::KeyFigure> first_figures(const SeriesResults& r) {
             if (at != group.statistics.end() && at->scalar.value && at->sample.spread && out.size() < most) {
                 report::KeyFigure figure = report::key_figure(at->scalar);
                 const InUnit shown(at->scalar, {at->sample.mean});
-                figure.note =
-                    fmt::format("{}: mean of {}, +- {:.2g} (95 %)", group.name, at->sample.n, at->sample.spread->half_width * shown.factor);
+                figure.note = fmt::format("{}: mean of {}, \u00b1 {:.2g} (95 %)", group.name, at->sample.n,
+                                          at->sample.spread->half_width * shown.factor);
                 out.push_back(std::move(figure));
             }
         }
@@ -186,23 +173,47 @@ std::vector<report::KeyFigure> first_figures(const SeriesResults& r) {
     return out;
 }
 
-// Every warning once, with the members that have it.
+// A warning without its figures.
+std::string wording(const std::string& warning) {
+    std::string out;
+    for (const char c : warning) {
+        const bool figure = (c >= '0' && c <= '9') || c == '.';
+        if (!figure || out.empty() || out.back() != '#') {
+            out += figure ? '#' : c;
+        }
+    }
+    return out;
+}
+
+// Every warning once, with the members that have it; those that differ in their figures only stand together.
 std::vector<std::string> warnings_of(const SeriesResults& r) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> found;
+    struct Found {
+        std::string text;
+        std::vector<std::string> with;  // these figures
+        std::vector<std::string> other; // others
+    };
+    std::vector<Found> found;
     std::size_t run = 0;
     for (const auto& m : r.members) {
         run += m.warnings.empty() && m.status == "not run" ? 0 : 1;
         for (const auto& w : m.warnings) {
-            const auto at = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == w; });
-            (at != found.end() ? at->second : found.emplace_back(w, std::vector<std::string>{}).second).push_back(m.member->name);
+            auto at = std::find_if(found.begin(), found.end(), [&](const Found& f) { return wording(f.text) == wording(w); });
+            if (at == found.end()) {
+                at = found.insert(found.end(), {w, {}, {}});
+            }
+            (at->text == w ? at->with : at->other).push_back(m.member->name);
         }
     }
     std::vector<std::string> out;
     if (r.status == "interrupted") {
         out.emplace_back("This series is partial: it was interrupted.");
     }
-    for (const auto& [text, names] : found) {
-        out.push_back(names.size() == run && run > 1 ? text + " (all tests)" : fmt::format("{} ({})", text, fmt::join(names, ", ")));
+    for (const auto& [text, with, other] : found) {
+        out.push_back(with.size() == run && run > 1 ? text + " (all tests)"
+                      : other.empty()
+                          ? fmt::format("{} ({})", text, fmt::join(with, ", "))
+                          : fmt::format("{} ({}; with other figures {})", text, fmt::join(with, ", "),
+                                        with.size() + other.size() == run ? "all other tests" : fmt::format("{}", fmt::join(other, ", "))));
     }
     for (const auto& group : r.groups) {
         if (!group.mean) {

@@ -49,10 +49,49 @@ std::vector<Trend> trends(const Study& study, const std::vector<MemberResult>& m
     return out;
 }
 
+// A value of a result with its unit.
+std::string in_words(report::Scalar scalar, double value) {
+    scalar.value = value;
+    const report::Scalar shown = report::readable(scalar);
+    return report::three_digits(*shown.value) + (shown.unit.empty() ? "" : " " + shown.unit);
+}
+
 // What people look at first.
 bool is_main(const report::Scalar& s) {
     return s.name.ends_with("strength") || s.name == "young_modulus" || s.name == "poisson_ratio" || s.name == "strain_at_peak" ||
            s.name == "crack_energy";
+}
+
+// As `table_of`, to be read: titles, units that people use, three digits.
+report::TextTable page_table(const Study& study, const std::vector<Trend>& found) {
+    const Variation& varied = variation(study.kind);
+    report::TextTable t{fmt::format("Results by {}; \u00b1 is the 95 % confidence of a mean", varied.title), {{"Result", "Unit"}}};
+    std::map<double, double, std::greater<>> columns; // value by x, coarse to fine
+    for (std::size_t k = 0; k < study.x.size(); ++k) {
+        columns[study.x[k]] = study.values[k];
+    }
+    for (const auto& [x, value] : columns) {
+        t.rows.front().push_back(fmt::format("{:.6g}{}", value, varied.unit));
+    }
+    t.rows.front().insert(t.rows.front().end(), {"Limit", "Power"});
+    for (const auto& trend : found) {
+        const report::InUnit shown(trend.scalar, trend.y);
+        const auto with_error = [&](double value, const std::optional<double>& half_width) {
+            return shown.text(value) + (half_width ? " \u00b1 " + shown.text(*half_width) : "");
+        };
+        std::vector<std::string> row{trend.scalar.title, shown.unit};
+        for (const auto& [x, value] : columns) {
+            const auto at = trend.at.find(x);
+            row.push_back(
+                at == trend.at.end()
+                    ? ""
+                    : with_error(at->second.mean, at->second.spread ? std::optional(at->second.spread->half_width) : std::nullopt));
+        }
+        row.push_back(trend.fit ? with_error(trend.fit->limit, trend.fit->half_width) : "");
+        row.push_back(trend.fit ? report::three_digits(trend.fit->power) : "");
+        t.rows.push_back(std::move(row));
+    }
+    return t;
 }
 
 report::TextTable table_of(const Study& study, const std::vector<Trend>& found) {
@@ -83,15 +122,14 @@ report::TextTable table_of(const Study& study, const std::vector<Trend>& found) 
 
 report::Plot plot_of(const Study& study, const Trend& trend) {
     const Variation& varied = variation(study.kind);
-    report::Scalar largest = trend.scalar;
-    largest.value = *std::max_element(trend.y.begin(), trend.y.end());
-    const report::Scalar shown = report::readable(largest);
-    const double factor = *largest.value != 0.0 ? *shown.value / *largest.value : 1.0;
+    const report::InUnit shown(trend.scalar, trend.y);
+    const double factor = shown.factor;
     report::Plot p{fmt::format("{} by {}; the line is the fit, its left end the limit.", trend.scalar.title, varied.title),
                    varied.axis,
                    fmt::format("{} [{}]", trend.scalar.title, shown.unit.empty() ? "-" : shown.unit),
                    {},
                    {}};
+    p.y_from_zero = false; // a trend is small beside the result itself
     report::Curve points{"tests", {}, {}, "#1f4e79", report::CurveStyle::points};
     for (std::size_t k = 0; k < trend.x.size(); ++k) {
         points.x.push_back(varied.axis_factor * trend.x[k]);
@@ -125,7 +163,8 @@ SeriesExtra evaluate_study(const Study& study, const std::vector<MemberResult>& 
     const auto found = trends(study, members);
     SeriesExtra out;
     out.csv_name = "study.csv";
-    out.tables.push_back(table_of(study, found));
+    out.csv = table_of(study, found);
+    out.tables.push_back(page_table(study, found));
     for (const auto& trend : found) {
         if (!is_main(trend.scalar)) {
             continue;
@@ -135,7 +174,8 @@ SeriesExtra evaluate_study(const Study& study, const std::vector<MemberResult>& 
             out.results.push_back(
                 {name + "_limit", fmt::format("{} {}", title, varied.limit), trend.fit->limit, unit,
                  fmt::format("least squares of limit + c x^{:.2g} over {} tests, x: {}{}", trend.fit->power, trend.x.size(), varied.axis,
-                             trend.fit->half_width ? fmt::format("; +- {:.3g} {} (95 %)", *trend.fit->half_width, unit) : "")});
+                             trend.fit->half_width ? "; \u00b1 " + in_words(trend.scalar, *trend.fit->half_width) + " (95 %)" : "")});
+            out.key_figures.push_back(report::key_figure(out.results.back()));
             const double finest = trend.at.begin()->second.mean;
             out.results.push_back({name + "_left", fmt::format("{}: finest over limit, less 1", title),
                                    trend.fit->limit != 0.0 ? std::optional(finest / trend.fit->limit - 1.0) : std::nullopt, "",

@@ -19,9 +19,7 @@ Json or_null(double value) { return std::isfinite(value) ? Json(value) : Json();
 double seconds_of(const SweepTable& table) {
     double out = 0.0;
     for (const auto& trial : table.trials) {
-        for (const auto& job : trial.jobs) {
-            out += job.seconds;
-        }
+        out += trial.seconds();
     }
     return out;
 }

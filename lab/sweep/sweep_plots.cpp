@@ -22,17 +22,13 @@ std::vector<double> own_values(const Sweep& sweep, std::size_t k) {
 
 } // namespace
 
-Shown::Shown(const std::string& si_unit, const std::vector<double>& values) : unit(si_unit) {
-    double largest = 0.0;
-    for (const double v : values) {
-        largest = std::isfinite(v) ? std::max(largest, std::fabs(v)) : largest;
-    }
-    const report::Scalar read = report::readable({"", "", largest, si_unit, ""});
-    unit = read.unit;
-    factor = largest > 0.0 ? *read.value / largest : 1.0;
+Shown::Shown(const std::string& name, const std::string& si_unit, const std::vector<double>& values) {
+    const report::InUnit in({name, "", std::nullopt, si_unit, ""}, values);
+    unit = in.unit;
+    factor = in.factor;
 }
 
-std::string Shown::text(double v) const { return std::isfinite(v) ? fmt::format("{:.4g}", v * factor) : ""; }
+std::string Shown::text(double v) const { return report::three_digits(v * factor); }
 
 std::string Shown::heading(const std::string& name) const { return unit.empty() ? name : fmt::format("{} [{}]", name, unit); }
 
@@ -40,7 +36,7 @@ std::string label(const Parameter& p) { return p.times.empty() ? p.name : fmt::f
 
 Shown shown(const Sweep& sweep, std::size_t parameter) {
     const Parameter& p = sweep.space[parameter];
-    return {p.times.empty() ? p.unit : "", own_values(sweep, parameter)};
+    return {p.times.empty() ? p.name : "", p.times.empty() ? p.unit : "", own_values(sweep, parameter)};
 }
 
 report::Plot all_curves_plot(const TestCurves& curves) {
@@ -138,8 +134,10 @@ report::Plot scatter_plot(const Sweep& sweep, const SweepOutcome& o, std::size_t
     const auto& column = o.table.results[c];
     const auto values = own_values(sweep, k);
     const Shown x = shown(sweep, k);
-    const Shown y(column.unit, column.mean);
-    report::Plot plot{fmt::format("{} over {}, the parameter that matters most for it.", column.name(), label(sweep.space[k])),
+    const Shown y(column.result, column.unit, column.mean);
+    report::Plot plot{fmt::format("{} over {}, {}.", column.name(), label(sweep.space[k]),
+                                  beyond_chance(o.sensitivities[c][k]) ? "the parameter that matters most for it"
+                                                                       : "of which it shows no influence beyond chance"),
                       x.heading(label(sweep.space[k])),
                       y.heading(column.name()),
                       {},

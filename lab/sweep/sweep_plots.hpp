@@ -10,7 +10,8 @@ struct Shown {
     std::string unit;
     double factor = 1.0;
 
-    Shown(const std::string& si_unit, const std::vector<double>& values);
+    /// name: of the result or parameter, which may say what it is: a strain, a modulus.
+    Shown(const std::string& name, const std::string& si_unit, const std::vector<double>& values);
     [[nodiscard]] std::string text(double v) const;
     [[nodiscard]] std::string heading(const std::string& name) const;
 };

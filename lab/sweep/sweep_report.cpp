@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "lab/citation.hpp"
+#include "lab/progress.hpp"
+#include "lab/provenance.hpp"
 #include "lab/sweep/sweep_plots.hpp"
 #include "lab/trials/verdicts.hpp"
 
@@ -45,7 +47,7 @@ report::TextTable test_table(const Sweep& sweep, const SweepTable& table) {
 report::TextTable influence_table(const Sweep& sweep, const SweepOutcome& o) {
     report::TextTable t{sweep.trajectories()
                             ? "Influence on all results: Morris' mu* over the largest of the result's"
-                            : fmt::format("Influence on all results: Spearman's rank correlation, beyond +-{:.2f} by chance "
+                            : fmt::format("Influence on all results: Spearman's rank correlation, beyond \u00b1{:.2f} by chance "
                                           "once in twenty",
                                           significant_correlation(o.table.trials.size() - o.table.failed())),
                         {{"Result", "Unit", "Least", "Most"}}};
@@ -60,7 +62,7 @@ report::TextTable influence_table(const Sweep& sweep, const SweepOutcome& o) {
             continue;
         }
         const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        const Shown s(column.unit, values);
+        const Shown s(column.result, column.unit, values);
         std::vector<std::string> row{column.name(), s.unit, s.text(*least), s.text(*most)};
         for (const auto& of_parameter : o.sensitivities[c]) {
             row.push_back(std::isfinite(of_parameter.value) ? fmt::format("{:.2f}", of_parameter.value) : "");
@@ -79,7 +81,7 @@ report::TextTable effects_table(const Sweep& sweep, const SweepOutcome& o) {
             for (const auto k : by_influence(o.sensitivities[c])) {
                 const Effects& e = o.sensitivities[c][k].effects;
                 if (e.n > 0) {
-                    const Shown s(column.unit, {e.mu_star});
+                    const Shown s(column.result, column.unit, {e.mu_star});
                     t.rows.push_back({column.name(), sweep.space[k].name, s.unit, std::to_string(e.n), s.text(e.mu), s.text(e.mu_star),
                                       s.text(e.sigma)});
                 }
@@ -99,13 +101,13 @@ report::TextTable point_table(const Sweep& sweep, const SweepOutcome& o) {
         for (const auto& trial : o.table.trials) {
             values.push_back(trial.values[k]);
         }
-        parameters.emplace_back(sweep.space[k].unit, values);
+        parameters.emplace_back(sweep.space[k].times.empty() ? sweep.space[k].name : "", sweep.space[k].unit, values);
         t.rows.front().push_back(parameters.back().heading(sweep.space[k].name));
     }
     std::vector<std::pair<std::size_t, Shown>> results;
     for (const auto& test : sweep.tests) {
         for (const auto c : main_results(sweep, o.table, test.name)) {
-            results.emplace_back(c, Shown(o.table.results[c].unit, o.table.results[c].mean));
+            results.emplace_back(c, Shown(o.table.results[c].result, o.table.results[c].unit, o.table.results[c].mean));
             t.rows.front().push_back(results.back().second.heading(o.table.results[c].name()));
         }
     }
@@ -175,12 +177,31 @@ std::vector<report::KeyFigure> first_figures(const Sweep& sweep, const SweepOutc
             const std::size_t k = by_influence(o.sensitivities[c]).front();
             const double value = o.sensitivities[c][k].value;
             if (out.size() < most && std::isfinite(value)) {
-                out.push_back({"Most influence on " + o.table.results[c].name(), sweep.space[k].name, "",
-                               fmt::format("{} {:.2f}", sweep.trajectories() ? "mu* over the largest" : "rank correlation", value)});
+                const bool real = beyond_chance(o.sensitivities[c][k]);
+                out.push_back({"Most influence on " + o.table.results[c].name(), real ? sweep.space[k].name : "none", "",
+                               sweep.trajectories() ? fmt::format("mu* over the largest {:.2f}", value)
+                               : real               ? fmt::format("rank correlation {:.2f}", value)
+                                                    : fmt::format("beyond chance, \u00b1{:.2f}", o.sensitivities[c][k].bound)});
             }
         }
     }
     return out;
+}
+
+// Main results on which no parameter has an influence that chance would not give.
+std::string within_chance(const Sweep& sweep, const SweepOutcome& o) {
+    std::vector<std::string> parts;
+    for (const auto& test : sweep.tests) {
+        for (const auto c : main_results(sweep, o.table, test.name)) {
+            const std::size_t k = by_influence(o.sensitivities[c]).front();
+            const Sensitivity& most = o.sensitivities[c][k];
+            if (std::isfinite(most.value) && !beyond_chance(most)) {
+                parts.push_back(fmt::format("{} ({} {:.2f}, by chance up to {:.2f})", o.table.results[c].name(), sweep.space[k].name,
+                                            std::fabs(most.value), most.bound));
+            }
+        }
+    }
+    return parts.empty() ? "" : fmt::format("No influence beyond chance on {}: their order says nothing.", fmt::join(parts, ", "));
 }
 
 } // namespace
@@ -211,6 +232,9 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
     if (!sweep.trajectories() && n - failed < 10) {
         r.warnings.emplace_back("Fewer than ten points: rank correlations say little.");
     }
+    if (const std::string none = within_chance(sweep, o); !none.empty()) {
+        r.warnings.push_back(none);
+    }
     r.key_figures = first_figures(sweep, o);
     r.citation = citation("Sweep", sweep.input.title, resolved(sweep));
     r.overview = {parameter_table(sweep), test_table(sweep, o.table)};
@@ -238,6 +262,15 @@ report::Record sweep_record(const Sweep& sweep, const SweepOutcome& o) {
         r.tables.push_back(effects_table(sweep, o));
     }
     r.tables.push_back(point_table(sweep, o));
+    double seconds = 0.0;
+    for (const auto& trial : o.table.trials) {
+        seconds += trial.seconds();
+    }
+    r.tables.push_back({"Provenance",
+                        {{"What", "Value"},
+                         {"Program", "Proveta " + version()},
+                         {"Wall time", Progress::duration(seconds) + " of all tests together"},
+                         {"To repeat", "proveta sweep manifest.json --out NEW_FOLDER"}}});
     if (failed > 0) {
         r.tables.push_back(failures_of(o.table));
         r.tables.back().title = "Failures";

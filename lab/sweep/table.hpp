@@ -1,6 +1,7 @@
 // What a sweep came to: a row a point, and how each result depends on each parameter.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct Sensitivity {
     double bound = 0.0; ///< what a chance rank correlation stays below, nineteen times in twenty
     Effects effects;    ///< of Morris' design
 };
+/// Whether it says anything: always of Morris' design, which has no bound.
+inline bool beyond_chance(const Sensitivity& s) { return std::isfinite(s.value) && std::fabs(s.value) > s.bound; }
 /// For each result, for each parameter.
 std::vector<std::vector<Sensitivity>> sensitivities(const Sweep& sweep, const SweepTable& table);
 

@@ -20,6 +20,15 @@ struct TrialResult {
 
     /// Mean of a result over the jobs of a test; none when any of them failed or lacks it.
     [[nodiscard]] std::optional<double> mean(const std::string& test, const std::string& result) const;
+
+    /// Wall time of all jobs.
+    [[nodiscard]] double seconds() const {
+        double sum = 0.0;
+        for (const auto& job : jobs) {
+            sum += job.seconds;
+        }
+        return sum;
+    }
 };
 
 /// Whether all of a trial was computed by this program's physics.

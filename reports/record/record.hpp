@@ -37,8 +37,29 @@ struct Scalar {
     std::string formula;
 };
 
-/// A result in the unit that people use: stresses in MPa, from 1 GPa on in GPa; strains in %. The rest unchanged.
+/// A result in the unit that people use: stresses in MPa, moduli and slopes from 0.1 GPa on in GPa, strains and relative changes in %. The
+/// rest in its own unit, as it is printed: m².
 Scalar readable(Scalar scalar);
+
+/// A number to be read: three significant digits and no power of ten where it does without, of a whole number all digits. Empty when it is
+/// no number.
+std::string three_digits(double value);
+
+/// A relative change in per cent with its sign; that of more than tenfold as a factor.
+std::string relative_change(double change);
+
+/// Whether a result can be compared by ratios: not where zero has no meaning of its own, as in the logarithms that magnitudes are, or where
+/// it is what one hopes for, as of an error.
+bool has_ratios(const std::string& name);
+
+/// The unit that suits the largest of several values of a result, so that they can be compared.
+struct InUnit {
+    std::string unit;
+    double factor = 1.0; ///< from SI
+
+    InUnit(const Scalar& scalar, const std::vector<double>& values);
+    [[nodiscard]] std::string text(double value) const { return three_digits(value * factor); }
+};
 
 /// A judgement with its figures.
 struct Badge {
@@ -70,7 +91,8 @@ struct Plot {
     std::vector<Curve> curves;
     std::vector<std::pair<double, double>> marks; ///< points to mark
     bool equal_scale = false;                     ///< a unit is as long on both axes
-    bool x_from_zero = true;                      ///< the x axis reaches to 0; the y axis always does
+    bool x_from_zero = true;                      ///< the x axis reaches to 0
+    bool y_from_zero = true;                      ///< the y axis does
     std::vector<std::string> rows = {};           ///< names of rows at y = -1, -2, ... in place of a y axis with numbers
 };
 

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import unittest
@@ -98,6 +99,40 @@ class Pages(Case):
         self.assertGreater(plot["overlaid"], len(rows) // 2)
         self.assertEqual(plot["columns"], ["axial_strain", "axial_stress_Pa"])
         self.assertEqual([float(f) for f in plot["factors"]], [100.0, 1e-6])
+
+    def test_doubts_stand_on_page_terminal_and_summary(self):
+        """A soft network, and an unloading from the peak, which is no fall past it."""
+        deck = self.deck({**DECK, "bonding": {"coordination": 8}, "material": {"card": "concrete_sfer"},
+                          "loading": {"rate": "0.4 m/s", "cycles": [{"axial_strain": 0.0019, "unload_to": 0.1}]}})
+        done = self.run_program("run", deck, "--out", "d", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "d" / "report.html").read_text()
+        summary = json.loads((self.folder / "d" / "summary.json").read_text())
+        doubt = [w for w in summary["warnings"] if w.startswith("8.0 bonds a sphere")]
+        self.assertEqual(len(doubt), 1, summary["warnings"])
+        self.assertIn(doubt[0].split(",")[0], page)
+        self.assertIn("warning: " + doubt[0], done.stdout)
+        past = re.search(r"20 % past the peak, strain ([0-9.]+) %", page)
+        self.assertGreater(float(past[1]), 100 * summary["results"]["strain_at_peak"]["value"])
+        self.assertIn("Wall time", page)
+        self.assertIn("m\u00b2", page)
+
+    def test_the_page_of_a_study_is_for_people(self):
+        done = self.run_program("study", "rate", self.deck({**DECK, "specimen": {**DECK["specimen"], "spheres": 300}}), "--out", "y", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "y" / "report.html").read_text()
+        self.assertNotRegex(page, r"<td[^>]*>[0-9.]+e[+-][0-9]+</td>")
+        self.assertIn("Compressive strength at rate 0", page[:page.index("<nav")])
+        self.look(self.folder / "y" / "report.html")
+
+    def test_an_imported_mesh_is_named(self):
+        spheres = "\n".join(f"{x} {y} {z} 5" for x in range(5, 50, 10) for y in range(5, 50, 10) for z in range(5, 100, 10))
+        (self.folder / "mesh.csv").write_text("x y z r\n" + spheres + "\n")
+        done = self.run_program("specimen", "import", "mesh.csv", "s.h5", "--scale", "0.001", "--shape", "prism")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.run_program("run", self.deck({**DECK, "specimen": {"file": "s.h5"}}), "--out", "m", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("imported from mesh.csv (axis z), stored as s.h5", (self.folder / "m" / "report.html").read_text())
 
     def test_the_page_of_a_series(self):
         deck = self.deck({**DECK, "title": HOSTILE, "specimen": {**DECK["specimen"], "spheres": 300, "seed": [1, 2]}})

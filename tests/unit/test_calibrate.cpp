@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "lab/calibrate/calibrate.hpp"
+#include "lab/calibrate/calibrate_report.hpp"
 #include "lab/calibrate/search.hpp"
 #include "lab/trials/csv.hpp"
 #include "lab/trials/decks.hpp"
@@ -282,4 +282,35 @@ TEST_CASE("ledger: half a line of a killed process is cut off, a second process 
     }
     folder.write("ledger.jsonl", "{}\n");
     CHECK_THROWS_AS(TrialBook(folder.path(), BookMode::run, 1, true), input::InputError);
+}
+
+TEST_CASE("a calibration's page says what keeps its card from being taken at its word") {
+    const TemporaryFolder folder;
+    const CalibrationPlan plan = read_calibration(folder.file("c.json", calibration(tau, strength)));
+    const auto targets = make_targets(plan);
+    // A card with tau_f at the place u between its bounds that gives a strength; noise: floor of the score.
+    const auto warned = [&](double u, double found, double score, double noise, double error) {
+        JobResult job{"ucs_seed_1", "ucs", "complete", "", {{"strength", found}}, true, 1.0, 1.0, {{"strength", "Pa"}}};
+        CalibrationOutcome outcome;
+        outcome.trials = {{"finish", true, {u}, {"key", plan.space.values({u}), {job}}, {{score}, true}}};
+        Confidence sure;
+        sure.noise_of_score = noise;
+        sure.standard_error = {error};
+        sure.correlation = Eigen::MatrixXd::Identity(1, 1);
+        outcome.confidence = sure;
+        return calibration_record(plan, targets, outcome, TrialFolders(folder.path())).warnings;
+    };
+    CHECK(warned(0.5, 30.5e6, 0.3, 0.1, 0.1).empty());
+    const auto missed = warned(0.5, 20e6, 7.0, 0.1, 0.1);
+    REQUIRE(missed.size() == 1);
+    CHECK(missed[0] == "Target missed, ucs strength: 20 MPa where 30 MPa is wanted (-33.3 %); its tolerance is 5 %.");
+    const auto bound = warned(1.0, 30e6, 0.3, 0.1, 0.1);
+    REQUIRE(bound.size() == 1);
+    CHECK(bound[0] == "tau_f = 20 MPa is at a bound of 10 MPa to 20 MPa: the best may lie beyond; widen it.");
+    const auto noisy = warned(0.5, 30e6, 0.1, 0.4, 0.1);
+    REQUIRE(noisy.size() == 1);
+    CHECK(noisy[0].find("score of 0.100 lies below its noise floor of 0.400") != std::string::npos);
+    const auto vague = warned(0.5, 30e6, 0.3, 0.1, 2.0);
+    REQUIRE(vague.size() == 1);
+    CHECK(vague[0] == "tau_f = 15 MPa is hardly told by these targets: its standard error is more than its whole range.");
 }

@@ -86,7 +86,7 @@ TEST_CASE("a page has one main part, headings in order, captions and scopes") {
     CHECK(r.key_figures[0].unit == "MPa");
     const auto counts = report::key_figures({{"n", "Particles", 18494.0, "", ""}, {"m", "Mass", 18494.3, "kg", ""}}, {"n", "m"});
     CHECK(counts[0].value == "18494");
-    CHECK(counts[1].value == "1.85e+04");
+    CHECK(counts[1].value == "18500");
     CHECK(report::key_figure(r.results[1]).value == "not determined");
     const auto html = report::to_html(r);
     CHECK(html.find("<html lang=\"en\">") != std::string::npos);
@@ -96,6 +96,40 @@ TEST_CASE("a page has one main part, headings in order, captions and scopes") {
     CHECK(html.find("<th scope=\"col\" class=\"num\">how much</th>") != std::string::npos);
     CHECK(html.find("<th scope=\"row\">mass</th><td class=\"num\">3</td>") != std::string::npos);
     CHECK(html.find("not determined</td>") != std::string::npos);
+}
+
+TEST_CASE("numbers to be read have three digits and suit their unit") {
+    for (const auto& [value, text] : {std::pair{32.5412, "32.5"},
+                                      {0.2126, "0.213"},
+                                      {12345.6, "12300"},
+                                      {12345.0, "12345"},
+                                      {-0.00147, "-0.00147"},
+                                      {0.0, "0"},
+                                      {-0.0, "0"},
+                                      {1.234e-7, "1.23e-07"},
+                                      {0.2, "0.200"}}) {
+        CHECK(report::three_digits(value) == text);
+    }
+    CHECK(report::three_digits(std::nan("")).empty());
+    const auto unit_of = [](const char* name, double value, const char* unit) {
+        return report::readable({name, "", value, unit, ""}).unit;
+    };
+    CHECK(unit_of("post_peak_slope", -0.5e9, "Pa") == "GPa"); // as the moduli beside it
+    CHECK(unit_of("young_modulus", 28e9, "Pa") == "GPa");
+    CHECK(unit_of("strength", 1.2e9, "Pa") == "MPa"); // as every stress
+    CHECK(unit_of("strain_at_peak", 0.002, "") == "%");
+    CHECK(unit_of("strain_ratio", 1.0, "").empty());
+    CHECK(unit_of("crack_energy", 80.0, "J/m2") == "J/m\u00b2");
+    CHECK(unit_of("bulk_density_box", 1500.0, "kg/m3") == "kg/m\u00b3");
+    CHECK(unit_of("friction_angle", 42.0, "deg") == "\u00b0");
+    const report::InUnit shown({"strength", "", std::nullopt, "Pa", ""}, {30e6, std::nan(""), 31e6});
+    CHECK(shown.text(30.123e6) == "30.1");
+    CHECK(report::relative_change(-0.0123) == "-1.23 %");
+    CHECK(report::relative_change(0.256) == "+25.6 %");
+    CHECK(report::relative_change(16.2) == "\u00d717.2");
+    CHECK(report::has_ratios("strength"));
+    CHECK_FALSE(report::has_ratios("largest_magnitude"));
+    CHECK_FALSE(report::has_ratios("toe_strain"));
 }
 
 TEST_CASE("failures are counted by strain, each in one bar") {

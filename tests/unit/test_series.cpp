@@ -194,6 +194,19 @@ TEST_CASE("a series finds its envelope, its ratios and its groups") {
     CHECK(table.rows[5].size() == table.rows[0].size());
     CHECK(series_summary(record, r)["groups"][0]["statistics"]["strength"]["n"] == 2);
 
+    // Warnings that differ in their figures alone stand together.
+    auto warned = members;
+    for (std::size_t k = 0; k < warned.size(); ++k) {
+        warned[k].warnings = {"Every test has this."};
+        if (k < 3) {
+            warned[k].warnings.push_back("Off by 0." + std::to_string(k) + " of it.");
+        }
+    }
+    const auto told = series_record(plan, evaluate(warned)).warnings;
+    REQUIRE(told.size() == 2);
+    CHECK(told[0] == "Every test has this. (all tests)");
+    CHECK(told[1] == "Off by 0.0 of it. (t_p_0MPa_seed_1; with other figures t_p_0MPa_seed_2, t_p_10MPa_seed_1)");
+
     // What has failed takes no part in what is derived.
     members[0].status = members[1].status = "failed";
     const SeriesResults partial = evaluate(members);

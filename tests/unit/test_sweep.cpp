@@ -369,3 +369,25 @@ TEST_CASE("a plot of rows names them instead of a y axis") {
     CHECK(svg.find("first &amp; best") < svg.find("second"));
     CHECK(svg.find(">-1<") == std::string::npos);
 }
+
+TEST_CASE("influences that chance would give as well are no influences on the page of a sweep") {
+    const TemporaryFolder folder;
+    const Sweep sweep = read_sweep(folder.file("s.json", sweep_text(R"(, "points": 15)")));
+    const auto page_of = [&](bool follows) {
+        std::vector<TrialResult> trials;
+        for (std::size_t i = 0; i < sweep.values.size(); ++i) {
+            trials.push_back(tested(sweep, i, follows ? 2.0 * sweep.values[i][0] : 30e6 + 1e6 * static_cast<double>(i * 7919 % 5)));
+        }
+        SweepOutcome o;
+        o.table = make_table(sweep, trials);
+        o.sensitivities = sensitivities(sweep, o.table);
+        return sweep_record(sweep, o);
+    };
+    const auto real = page_of(true);
+    CHECK(real.warnings.empty());
+    CHECK(real.key_figures.at(1).value == "tau_f");
+    const auto chance = page_of(false);
+    REQUIRE(chance.warnings.size() == 1);
+    CHECK(chance.warnings[0].find("No influence beyond chance on press.strength (") == 0);
+    CHECK(chance.key_figures.at(1).value == "none");
+}

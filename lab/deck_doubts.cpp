@@ -1,0 +1,77 @@
+#include "lab/deck_doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/input/quantities.hpp"
+#include "core/input/units.hpp"
+
+namespace proveta {
+
+namespace {
+
+using input::DeclaredQuantity;
+using input::format_quantity;
+using input::Unit;
+
+// Of dense matter in a press no stress is as low, no length as large and no density as low as these.
+constexpr double low_stress = 1e3;   // Pa
+constexpr double long_length = 10.0; // m
+constexpr double low_density = 50.0; // kg/m3
+// Stiffness over strength of what breaks is some 100 to 100,000.
+constexpr double stiffest = 1e7;
+
+// The unit that a value lacks by the look of it; empty: none.
+std::string lacking(const DeclaredQuantity& q) {
+    if (q.value <= 0.0) {
+        return "";
+    }
+    switch (q.unit) {
+    case Unit::pressure: return q.value >= low_stress ? "" : q.key == "young_modulus" ? "GPa" : "MPa";
+    case Unit::length: return q.value > long_length ? "mm" : "";
+    case Unit::density: return q.value < low_density ? "g/cm3" : "";
+    default: return "";
+    }
+}
+
+// Stiffness against strengths of one material; path: its object.
+void look_at_strengths(const Card& card, const std::string& path, std::vector<std::string>& out) {
+    const auto strengths = strengths_of(card);
+    if (strengths.empty()) {
+        return;
+    }
+    const auto [low, high] =
+        std::minmax_element(strengths.begin(), strengths.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+    const std::string modulus = fmt::format("{}/young_modulus: {}", path, format_quantity(card.young_modulus, Unit::pressure));
+    if (card.young_modulus < high->value) {
+        out.push_back(fmt::format(
+            "{} is below {} = {}, so that bonds stretch to more than twice their length before they break: does one of the two lack its "
+            "unit?",
+            modulus, high->key, format_quantity(high->value, Unit::pressure)));
+    } else if (card.young_modulus > stiffest * low->value) {
+        out.push_back(fmt::format("{} is {:.2g} times {} = {}, where 100 to 100,000 times are usual: is one of the two in another unit?",
+                                  modulus, card.young_modulus / low->value, low->key, format_quantity(low->value, Unit::pressure)));
+    }
+}
+
+} // namespace
+
+std::vector<std::string> doubts_of(const Deck& deck) {
+    std::vector<std::string> out;
+    for (const auto& q : input::quantities(deck)) {
+        if (const std::string unit = lacking(q); !unit.empty()) {
+            out.push_back(fmt::format("{}: {} is likely to lack its unit: \"{} {}\"?", q.path, format_quantity(q.value, q.unit),
+                                      input::format_number(q.value), unit));
+        }
+    }
+    if (!deck.protocol->granular()) {
+        look_at_strengths(deck.material.values, "/material", out);
+        for (std::size_t k = 0; k < deck.regions.size(); ++k) {
+            look_at_strengths(deck.regions[k].material.values, fmt::format("/regions/{}/material", k), out);
+        }
+    }
+    return out;
+}
+
+} // namespace proveta

@@ -1,0 +1,15 @@
+// What a deck may well not mean although it can be run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lab/deck.hpp"
+
+namespace proveta {
+
+/// Values that are likely to lack their unit, and bonds whose stiffness and strengths do not go together: each a sentence that begins with
+/// the JSON path.
+std::vector<std::string> doubts_of(const Deck& deck);
+
+} // namespace proveta
