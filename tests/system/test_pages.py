@@ -121,7 +121,7 @@ class Pages(Case):
         done = self.run_program("study", "rate", self.deck({**DECK, "specimen": {**DECK["specimen"], "spheres": 300}}), "--out", "y", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         page = (self.folder / "y" / "report.html").read_text()
-        self.assertNotRegex(page, r"<td[^>]*>[0-9.]+e[+-][0-9]+</td>")
+        self.assertIsNone(re.search(r"<td[^>]*>[0-9.]+e\+[0-9]+", page))
         self.assertIn("Compressive strength at rate 0", page[:page.index("<nav")])
         self.look(self.folder / "y" / "report.html")
 
