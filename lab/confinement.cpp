@@ -40,6 +40,14 @@ void check_confinement(const Confinement& c, const Deck& deck, input::Problems& 
         return;
     }
     const Card& card = deck.material.values;
+    constexpr double longest = 1e6; // crossings of a wave
+    const double crossing = deck.specimen.height / std::sqrt(card.young_modulus / card.density);
+    if (deck.specimen.file.empty() && !deck.protocol->granular() && c.ramp.number > longest * crossing) {
+        problems.push_back({deck.source, "/loading/pressure_ramp", input::format_quantity(c.ramp.number, input::Unit::time),
+                            fmt::format("at most {}, a million crossings of a wave of some hundred steps each: no end is in sight of more",
+                                        input::format_quantity(longest * crossing, input::Unit::time)),
+                            "\"auto\" is as slow as need be"});
+    }
     const double compliance = (1.0 - 2.0 * card.poisson_ratio) / card.young_modulus; // of a solid one
     const double speed =
         0.5 * std::numbers::pi * c.pressure / c.ramp.number * compliance * deck.specimen.height; // steepest point of the ramp

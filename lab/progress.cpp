@@ -59,9 +59,14 @@ void Progress::end_line() {
     }
 }
 
+std::string Progress::left(double seconds, double done) {
+    constexpr double least = 1e-5; // below, a guess of the rest is none
+    return done >= least ? "at most " + duration(seconds * (1.0 / done - 1.0)) + " left" : "time left unknown: next to nothing is done yet";
+}
+
 std::string Progress::duration(double seconds) {
     if (!(seconds < 1e7)) {
-        return "?";
+        return "more than 100 days";
     }
     const auto s = std::lround(seconds);
     if (s < 60) {

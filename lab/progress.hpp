@@ -20,6 +20,8 @@ class Progress {
 
     /// "1 min 20 s"
     static std::string duration(double seconds);
+    /// How long the rest may take of which a share is done after some seconds, in words; where nothing tells, that and why.
+    static std::string left(double seconds, double done);
 
   private:
     bool quiet_;

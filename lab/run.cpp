@@ -83,9 +83,9 @@ class FieldSeries {
 std::string progress_line(const Bench& bench, const TestData& data, double done, double seconds) {
     const auto& row = data.curve.rows.back();
     const double rate = static_cast<double>(bench.model->steps()) / std::max(seconds, 1e-9);
-    return fmt::format("strain {:.4f} %  stress {:.2f} MPa  broken {}  {:.0f} steps/s  {:.0f} %  at most {} left",
+    return fmt::format("strain {:.4f} %  stress {:.2f} MPa  broken {}  {:.0f} steps/s  {:.0f} %  {}",
                        100.0 * row[data.curve.column("axial_strain")], 1e-6 * row[data.curve.column("axial_stress")], bench.model->broken(),
-                       rate, 100.0 * done, Progress::duration(seconds * (1.0 / std::max(done, 1e-9) - 1.0)));
+                       rate, 100.0 * done, Progress::left(seconds, done));
 }
 
 // Has a test kept, every so many seconds and where it must be, unless it is only reported, and restored if it is to go on.

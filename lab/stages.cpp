@@ -9,12 +9,19 @@
 #include "core/input/units.hpp"
 #include "lab/controls/closing.hpp"
 #include "lab/controls/servo.hpp"
+#include "lab/deck.hpp"
 #include "lab/derived.hpp"
 #include "lab/fragments.hpp"
 
 namespace proveta {
 
 using input::Unit;
+
+namespace {
+
+constexpr double longest_test = 1e6; // crossings of a wave: a thousand times what an automatic rate takes
+
+} // namespace
 
 void declare(input::Visitor& v, StopRules& r) {
     v.number("axial_strain", r.axial_strain, Unit::none, {0.0, 0.5, true, false},
@@ -113,7 +120,18 @@ void declare_axial(input::Visitor& v, AxialLoading& l, bool with_girth) {
     }
 }
 
-void check_axial(const AxialLoading& l, double limit, const std::string& source, input::Problems& problems) {
+void check_axial(const AxialLoading& l, double limit, const input::NumberOrWord& time, const Deck& deck, input::Problems& problems) {
+    const std::string& source = deck.source;
+    const Card& card = deck.material.values;
+    const double crossings = limit * std::sqrt(card.young_modulus / card.density) / l.rate.rate.number;
+    if (!l.rate.automatic() && !time.word.empty() && !deck.protocol->granular() && crossings > longest_test) {
+        problems.push_back(
+            {source, "/loading/rate", input::format_quantity(l.rate.rate.number, Unit::velocity),
+             fmt::format("at least {:.2g} m/s: slower, a strain of {:.3g} takes more than {:.0g} crossings of a wave, of some "
+                         "hundred steps each, and no end is in sight",
+                         l.rate.rate.number * crossings / longest_test, limit, longest_test),
+             "\"auto\" is as slow as need be; or less strain in stop.axial_strain, or a time in stop.time"});
+    }
     double last = 0.0;
     for (std::size_t k = 0; k < l.cycles.size(); ++k) {
         const Cycle& c = l.cycles[k];
@@ -145,9 +163,18 @@ struct Path {
     double turned_stress = 0.0;                               // deviatoric stress there, Pa
 };
 
+// Bonds that fail at next to no strain have no strength worth any care, and at speeds of the scale of that strain a test would never end.
+// It goes on steadily, in so many crossings of a wave: inertia makes some hundredths of a megapascal of it.
+bool weak(const AxialTarget& t) { return t.first_damage < 2e-5; } // that of concrete is some 1e-4
+constexpr double weak_crossings = 4000.0;
+
 std::shared_ptr<Control> closing_control(const AxialLoading& l, const BenchView& bench, const AxialTarget& t, double pace) {
     if (l.rate.automatic()) {
         const double length = bench.press.length;
+        if (weak(t)) {
+            return std::make_shared<SteadyClosing>(pace * t.strain / weak_crossings * bench.wave_speed, 20.0 * bench.crossing(),
+                                                   t.pressure);
+        }
         const RateScale scale{length, bench.wave_speed, t.first_damage, steps_between_looks(length, bench.wave_speed, bench.model.dt())};
         return std::make_shared<LedClosing>(scale, pace, t.pressure);
     }
@@ -183,7 +210,8 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
                           std::make_shared<Braked>(control, done), done});
         stages.push_back({fmt::format("unloading {}", k + 1), Stage::Kind::cycling, target.share * cycle_share,
                           std::make_shared<Unloading>(unloading, pace, target.pressure), [=](const BenchView& b) {
-                              return (path->turned_stress - deviator(b)) / ((1.0 - c.unload_to) * path->turned_stress);
+                              const double fall = (1.0 - c.unload_to) * path->turned_stress;
+                              return fall > 0.0 ? (path->turned_stress - deviator(b)) / fall : 1.0; // else there is nothing to unload
                           }});
         stages.push_back({fmt::format("reloading {}", k + 1), Stage::Kind::cycling, target.share * cycle_share, control,
                           [=](const BenchView& b) { return strain(b) / path->turned_strain; }});
@@ -197,7 +225,8 @@ std::vector<Stage> axial_stages(const AxialLoading& l, const BenchView& bench, c
                           }});
         const double rate = l.girth_rate.word.empty() ? pace * l.girth_rate.number : 0.0;
         stages.push_back({"loading by girth", Stage::Kind::loading, target.share,
-                          std::make_shared<GirthServo>(rate, 2.0 * elastic_guess(bench).poisson, target.pressure),
+                          std::make_shared<GirthServo>(rate, 2.0 * elastic_guess(bench).poisson, target.pressure,
+                                                       weak(target) ? target.strain / weak_crossings : 0.0),
                           [=](const BenchView& b) { return std::max(to_end(b), -b.girth_strain() / target.strain); }});
     } else {
         stages.push_back({"loading", Stage::Kind::loading, target.share, control, to_end});

@@ -60,8 +60,8 @@ struct AxialLoading {
 /// with_girth: the test may be led by the girth.
 void declare_axial(input::Visitor& v, AxialLoading& loading, bool with_girth);
 
-/// What the cycles contradict. limit: axial strain that ends the test.
-void check_axial(const AxialLoading& loading, double limit, const std::string& source, input::Problems& problems);
+/// What the cycles contradict, and a rate at which the test would not end. limit, time: axial strain and stop.time that end the test.
+void check_axial(const AxialLoading& loading, double limit, const input::NumberOrWord& time, const Deck& deck, input::Problems& problems);
 
 /// What `axial_stages` needs besides the keys.
 struct AxialTarget {

@@ -135,6 +135,7 @@ class Run {
     void pass(const Stage& stage, bool midst) {
         if (!midst) {
             stage.control->begin(view_, drive_);
+            furthest_ = {0.0, view_.strain(), view_.strain(), model_.time()};
             if (stage.kind == Stage::Kind::loading && track_.looks == 0.0) {
                 track_.begun = view_.strain();
             }
@@ -168,11 +169,32 @@ class Run {
                 hooks_.progress(data_, whole);
                 looked_ = true;
             }
+            if (!over) {
+                insist(stage, done);
+            }
             over = over || !data_.stopped_by.empty();
         }
         if (data_.stopped_by.empty()) {
             before_ += stage.share;
             ++stage_;
+        }
+    }
+
+    // A stage that does not get on would go on for ever: who waits for it is told.
+    void insist(const Stage& stage, double done) {
+        constexpr double least = 1e-5;        // of the stage,
+        constexpr double least_strain = 1e-6; // or of axial strain, beyond where it has been,
+        constexpr double patience = 3000.0;   // in so many crossings of a wave: whole tests take some hundreds to thousands
+        const double strain = view_.strain();
+        if (done >= furthest_.done + least || strain > furthest_.high + least_strain || strain < furthest_.low - least_strain) {
+            furthest_ = {std::max(done, furthest_.done), std::min(strain, furthest_.low), std::max(strain, furthest_.high), model_.time()};
+        } else if (model_.time() - furthest_.time > patience * view_.crossing()) {
+            throw NumericalFailure(fmt::format(
+                "the stage \"{}\" does not get on: {:.4g} % of it were done at {:.4g} s and no more {:.0f} steps later; the platens "
+                "move at {:.3g} m/s under a stress of {:.3g} Pa, {} of {} bonds have failed. Look at the rate, at what ends the "
+                "test and at the strengths of the card (tensile_strength; of the law dempack sigma_f and tau_f)",
+                stage.name, 100.0 * furthest_.done, furthest_.time, (model_.time() - furthest_.time) / model_.dt(), drive_.closing,
+                view_.stress(), model_.broken(), model_.bonds.size()));
         }
     }
 
@@ -189,6 +211,10 @@ class Run {
         visit("test_stopped_by", data_.stopped_by);
         visit("test_samples", samples_);
         visit("test_fields", fields_);
+        visit("test_furthest", furthest_.done);
+        visit("test_furthest_low", furthest_.low);
+        visit("test_furthest_high", furthest_.high);
+        visit("test_furthest_time", furthest_.time);
         visit("test_closing", drive_.closing);
         visit("test_pressure", drive_.pressure);
         visit_rows("curve_", data_.curve, visit);
@@ -287,6 +313,10 @@ class Run {
     bool looked_ = true;
     bool stepped_ = false; // by this process: forces and stresses are those of a step, and are not kept
     double before_ = 0.0;  // share of the test in earlier stages
+    // How far the stage has got: share, lowest and highest axial strain, and when that last changed, s.
+    struct Furthest {
+        double done = 0.0, low = 0.0, high = 0.0, time = 0.0;
+    } furthest_;
     std::int64_t samples_ = 0;
     std::int64_t fields_ = 0;
 };

@@ -15,7 +15,8 @@ constexpr double proportional = 0.4;
 constexpr double integral = 0.04;
 constexpr double clock_memory = 2.0; // crossings over which the speed is averaged that the clock goes by
 
-constexpr double slow = 0.01; // of the strain, per crossing
+constexpr double slowest_clock = 0.01; // of the true one: what gives way for good is not waited for
+constexpr double slow = 0.01;          // of the strain, per crossing
 constexpr double girth_gain = 0.3;
 constexpr double girth_lag = 0.5; // crossings over which the speed follows what the loop asks for
 
@@ -30,7 +31,7 @@ void StressServo::begin(const BenchView&, const Drive&) {
 Drive StressServo::drive(const BenchView& bench) {
     const double dt = bench.model.dt();
     const double crossing = bench.crossing();
-    const double pace = settings_.calm_speed > 0.0 ? std::min(1.0, settings_.calm_speed / std::max(speed_, 1e-300)) : 1.0;
+    const double pace = settings_.calm_speed > 0.0 ? std::clamp(settings_.calm_speed / std::max(speed_, 1e-300), slowest_clock, 1.0) : 1.0;
     const double p = pressure_(clock_);
     const double expected = settings_.compliance * (pressure_(clock_ + pace * dt) - p) / dt; // strain per s
     const double error = p - bench.stress();
@@ -51,6 +52,7 @@ void GirthServo::begin(const BenchView& bench, const Drive& last) {
     from_ = -bench.girth_strain();
     speed_ = last.closing;
     limit_ = std::min(std::fabs(last.closing), slow * bench.strain() * bench.wave_speed);
+    limit_ = std::max(limit_, least_ * bench.wave_speed);
     if (rate_ <= 0.0) {
         rate_ = lateral_ * limit_ / bench.press.length;
     }

@@ -44,15 +44,17 @@ class GirthServo : public Control {
   public:
     /// rate: growth of the girth, strain per s; 0: as fast as the platens may then close. lateral: circumferential over axial strain that
     /// the loop reckons with; pressure on the side, Pa. The platens close no faster than when the loop took over, nor than a hundredth of
-    /// the strain then per crossing of a wave, so that they can still turn back while a crack runs.
-    GirthServo(double rate, double lateral, double pressure) : rate_(rate), lateral_(lateral), pressure_(pressure) {}
+    /// the strain then per crossing of a wave, so that they can still turn back while a crack runs;
+    /// least: of that limit, strain per crossing.
+    GirthServo(double rate, double lateral, double pressure, double least)
+        : rate_(rate), lateral_(lateral), pressure_(pressure), least_(least) {}
 
     void begin(const BenchView& bench, const Drive& last) override;
     [[nodiscard]] Drive drive(const BenchView& bench) override;
     void visit_state(const std::string& prefix, StateVisitor& visit) override;
 
   private:
-    double rate_, lateral_, pressure_;
+    double rate_, lateral_, pressure_, least_;
     double begun_ = 0.0;
     double from_ = 0.0;  // girth then
     double limit_ = 0.0; // of the closing speed, m/s

@@ -67,7 +67,7 @@ class Brazilian : public Protocol {
                                     "at least 100 spheres for a splitting test", "16,000 give a good curve"});
             }
         }
-        check_axial(axial_, stop_.axial_strain, deck.source, problems);
+        check_axial(axial_, stop_.axial_strain, stop_.time, deck, problems);
     }
 
     // 2. Stages and 3. controls: platens at the two ends of a diameter, closing at the rate, both at half of it.

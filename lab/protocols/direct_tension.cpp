@@ -41,7 +41,7 @@ class DirectTension : public Protocol {
             problems.push_back({deck.source, "/specimen/spheres", std::to_string(deck.specimen.spheres),
                                 "at least 20 spheres for a tension test", "13,500 give a good curve"});
         }
-        check_axial(axial_, stop_.axial_strain, deck.source, problems);
+        check_axial(axial_, stop_.axial_strain, stop_.time, deck, problems);
     }
 
     // 2. Stages and 3. controls: platens glued to the ends, parting at the rate, both at half of it.

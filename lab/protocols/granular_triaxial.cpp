@@ -91,7 +91,7 @@ class GranularTriaxial : public Protocol {
                 {deck.source, "/loading/confining_pressure", "0", "a pressure above 0", "loose matter has no strength without"});
         }
         check_membrane(deck, problems);
-        check_axial(loading(0.0), stop_.axial_strain, deck.source, problems);
+        check_axial(loading(0.0), stop_.axial_strain, stop_.time, deck, problems);
         if (friction_.word == "glued") {
             problems.push_back(
                 {deck.source, "/loading/platen_friction", "\"glued\"", "a number or \"lubricated\"", "stones are not glued on"});

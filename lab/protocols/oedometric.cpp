@@ -58,7 +58,7 @@ class Oedometric : public Protocol {
                                     "\"auto\" fits the specimen"});
             }
         }
-        check_axial(axial_, stop_.axial_strain, deck.source, problems);
+        check_axial(axial_, stop_.axial_strain, stop_.time, deck, problems);
     }
 
     // 2. Stages and 3. controls: platens closing; ring or walls at rest.

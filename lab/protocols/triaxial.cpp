@@ -52,7 +52,7 @@ class Triaxial : public Protocol {
             problems.push_back(
                 {deck.source, "/loading/confinement", "\"membrane\" around a prism", "a specimen that is round", "or \"spheres\""});
         }
-        check_axial(axial_, stop_.axial_strain, deck.source, problems);
+        check_axial(axial_, stop_.axial_strain, stop_.time, deck, problems);
     }
 
     // 2. Stages and 3. controls: all sides to the pressure, the platens on a servo; a pause; axial loading.

@@ -45,7 +45,7 @@ class Ucs : public Protocol {
                                 "at least 20 spheres for a compression test",
                                 "1,000 spheres give a first impression, 13,500 a good curve"});
         }
-        check_axial(axial_, stop_.axial_strain, deck.source, problems);
+        check_axial(axial_, stop_.axial_strain, stop_.time, deck, problems);
     }
 
     // 2. Stages and 3. controls: platens in contact without load, then closing at the rate, both at half of it; cycles; the girth may lead.

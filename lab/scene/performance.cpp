@@ -100,9 +100,9 @@ void Performance::look() {
     ++samples_;
     const double done = m.time() / scene_.stop.time;
     const double spheres = static_cast<double>(m.spheres.size()) * static_cast<double>(m.steps());
-    progress_.show(fmt::format("time {:.4g} s  {} particles  speed {:.3g} m/s  {:.3g} sphere-steps/s  {:.0f} %  at most {} left", m.time(),
+    progress_.show(fmt::format("time {:.4g} s  {} particles  speed {:.3g} m/s  {:.3g} sphere-steps/s  {:.0f} %  {}", m.time(),
                                seen_.curve.rows.back()[1], seen_.curve.rows.back()[5], spheres / std::max(seconds(), 1e-9), 100.0 * done,
-                               Progress::duration(seconds() * (1.0 / std::max(done, 1e-9) - 1.0))));
+                               Progress::left(seconds(), done)));
     seen_.stopped_by = play_.over();
 }
 

@@ -109,6 +109,16 @@ TEST_CASE("rate control: a specimen that is crushed goes on as fast as its elast
     CHECK(rate[1] == Approx(0.25 * rate[0]).epsilon(1e-3));
 }
 
+TEST_CASE("rate control: however early damage rules, the test goes on") {
+    RateControl control(scale, 1.0);
+    MadeUp bar;
+    bar.onset = 1e-12;
+    while (bar.strain < 5e-3) {
+        bar.step(control);
+        REQUIRE(bar.steps < 5000 * 160); // crossings
+    }
+}
+
 TEST_CASE("rate control: its few numbers are its state") {
     RateControl control(scale, 1.0);
     MadeUp bar;
