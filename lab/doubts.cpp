@@ -20,6 +20,9 @@ constexpr double modulus_tolerance = 0.1;
 
 std::string stress(double pascal) { return fmt::format("{:.3g} MPa", 1e-6 * pascal); }
 
+// In the prefix that fits it, from Pa to GPa.
+std::string modulus(double pascal) { return input::format_quantity(std::stod(fmt::format("{:.3g}", pascal)), input::Unit::pressure); }
+
 } // namespace
 
 std::string few_at_platens(const std::vector<std::size_t>& touching) {
@@ -100,9 +103,8 @@ std::string modulus_off(const Card& card, const std::vector<report::Scalar>& res
     const Loading l = loading_of(m.curve, m.press.sense);
     const auto third = first_reaching(l.deviator, l.deviator[peak_index(l.deviator)] / 3.0, l.deviator.size() - 1);
     const bool lossy = third && elastic_samples(m, l) <= *third;
-    return fmt::format("E comes out as {}, where the card asks for {} ({:+.0f} %){}",
-                       input::format_quantity(*e->value, input::Unit::pressure),
-                       input::format_quantity(card.young_modulus, input::Unit::pressure), 100.0 * (*e->value / card.young_modulus - 1.0),
+    return fmt::format("E comes out as {}, where the card asks for {} ({:+.0f} %){}", modulus(*e->value), modulus(card.young_modulus),
+                       100.0 * (*e->value / card.young_modulus - 1.0),
                        lossy ? ": the range that it is taken from is no longer elastic." : ".");
 }
 

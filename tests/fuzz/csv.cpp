@@ -22,7 +22,7 @@ void read_csv_file(std::string_view bytes) {
     may_refuse([&] {
         const input::TextTable table(file);
         (void)table.description();
-        (void)input::match_column(table, {"axial strain", {"strain", "axial strain"}, Unit::none, 1.0});
+        (void)input::match_column(table, {"axial strain", {"strain", "axial strain"}, input::Unit::none, 1.0});
         for (std::size_t c = 0; c < table.columns().size(); ++c) {
             may_refuse([&] { (void)table.numbers(table.find(table.columns()[c].heading)); });
         }

@@ -158,12 +158,13 @@ TEST_CASE("calibration: every problem at once, at its place") {
         problems_in(folder.file("b.json", calibration(R"({"path": "material.lcs.0", "low": "20 MPa", "high": "60 MPa"})", strength)));
     REQUIRE(bounds.size() == 1);
     CHECK(bounds[0].path == "/parameters/0/high");
-    // What could not be read is said once, not called missing as well.
+    // What could not be read is said once, not called missing as well; a curve that is not there is told with the rest.
     const auto once = problems_in(folder.file("o.json", calibration(tau, R"({"test": "ucs", "curve": "x.csv", "y": "stress"},
                                                                              {"test": "ucs", "result": "strength", "value": "30 bananas"})")));
-    REQUIRE(once.size() == 2);
+    REQUIRE(once.size() == 3);
     CHECK(once[0].path == "/targets/0/y");
     CHECK(once[1].path == "/targets/1/value");
+    CHECK(once[2].path == "/targets/0/curve");
     CHECK(problems_in(folder.file("n.json", calibration("", strength))).at(0).path == "/parameters");
     CHECK(problems_in(folder.file("t.json", R"({"tests": [], "parameters": []})")).at(0).path == "/tests");
     CHECK(problems_in(folder.file("m.json", calibration(tau, R"({"test": "ucs", "curve": "none.csv", "y": "total_stress"})"))).at(0).path ==

@@ -259,7 +259,7 @@ TEST_CASE("a folder is an earlier result by its own manifest or ledger, and by n
     CHECK_FALSE(usable("text", "ledger.jsonl", "Some other ledger\n"));
     CHECK(usable("run", "manifest.json", R"({"proveta_manifest": 1})"));
     CHECK(usable("sweep", "manifest.json", R"({"proveta_sweep_manifest": 1})"));
-    CHECK(usable("trials", "ledger.jsonl", R"({"jobs":[],"trial":"a","values":[]})"));
+    CHECK(usable("trials", "ledger.jsonl", R"({"trial":"a","values":[],"jobs":[]})"));
     CHECK(usable("begun", "ledger.jsonl", ""));
     CHECK(usable("killed", "manifest.json.partial", "{"));
     CHECK_FALSE(usable("films", "film.mp4.partial", "x"));
