@@ -42,7 +42,7 @@ double enclosed_volume(const Deformable& membrane);
 double middle_radius(const Deformable& membrane);
 
 /// What the membrane presses on the specimen with, Pa: that of the contacts' forces at the last step which does work when the volume inside
-/// changes all round. What the rubber's own tension adds to the cell's pressure is in it.
+/// changes all round. What the rubber's own tension adds to the cell's pressure is in it; what its ends hand over to the platens is not.
 double pressure_inside(const Deformable& membrane);
 
 /// Force that the membrane itself bears along the axis, compression positive: mean of both ends, N.

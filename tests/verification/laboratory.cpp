@@ -164,7 +164,7 @@ TEST_CASE("triaxial: the servo keeps the platens within 1 % of the pressure on i
     CHECK(t.data.stages == std::vector<std::string>{"isotropic", "hold", "loading"});
     // What the side feels is what is commanded, a step earlier: it is measured from forces and areas as they are.
     CHECK(t.data.curve.values("cell_pressure").back() == 9e6);
-    CHECK(lateral.back() == Approx(9e6).epsilon(1e-6));
+    CHECK(lateral.back() == Approx(9e6).epsilon(1e-5));
     CHECK(lateral.back() != 9e6);
 }
 
@@ -172,8 +172,10 @@ TEST_CASE("triaxial: the lateral stress is what the specimen feels inside its me
     const Ran t = run("triaxial", R"({"loading": {"confining_pressure": "2 MPa", "confinement": "membrane", "rate": "0.5 m/s",
         "stop": {"axial_strain": 0.001}}})");
     CHECK(t.data.curve.values("cell_pressure").back() == 2e6);
-    CHECK(t.data.curve.values("lateral_stress").back() == Approx(2e6).epsilon(0.03)); // contacts ring; the rubber bears some thousandths
-    CHECK(t.data.curve.values("lateral_stress").back() != 2e6);
+    // The ends of the membrane, which the platens hold, keep a share of the pressure: here as much as a sphere's height of a hundred.
+    const double felt = t.data.curve.values("lateral_stress").back();
+    CHECK(felt < 2e6);
+    CHECK(felt > 0.85 * 2e6);
 }
 
 TEST_CASE("cycles: unloading follows the elastic slope, reloading comes back, the envelope goes on") {
