@@ -96,26 +96,31 @@ Extent extent_of(const std::vector<ReadSphere>& spheres) {
 
 // Where the surface lies that spheres of the skin rest on. ends: how far each sphere reaches against the outward normal, lowest outermost.
 // Meshes that others relaxed have spheres that stand out of their faces, so that the farthest says little: most of the skin ends within a
-// narrow band about the face itself. A skin without such a band is rough, and ends at its farthest sphere.
+// narrow band about the face itself, the first crowded one from outside. A skin without such a band is rough, and ends at its farthest
+// sphere.
 double surface_of(std::vector<double> ends, double grain) {
     std::sort(ends.begin(), ends.end());
     const double band = 0.25 * grain;
     const double depth = 4.0 * grain;
-    const auto layer = std::upper_bound(ends.begin(), ends.end(), ends.front() + depth);
-    std::ptrdiff_t most = 0;
-    auto begin = ends.begin();
-    for (auto low = ends.begin(), high = ends.begin(); low != layer; ++low) {
-        while (high != layer && *high <= *low + band) {
+    const auto layer = std::upper_bound(ends.begin(), ends.end(), ends.front() + depth) - ends.begin();
+    std::vector<std::ptrdiff_t> within; // spheres in the band that begins with each
+    for (std::ptrdiff_t low = 0, high = 0; low != layer; ++low) {
+        while (high != layer && ends[static_cast<std::size_t>(high)] <= ends[static_cast<std::size_t>(low)] + band) {
             ++high;
         }
-        if (high - low > most) {
-            most = high - low;
-            begin = low;
-        }
+        within.push_back(high - low);
     }
-    const double evenly = static_cast<double>(layer - ends.begin()) * band / depth;
-    const bool clear = most >= 10 && static_cast<double>(most) > 2.0 * evenly;
-    return clear ? std::accumulate(begin, begin + most, 0.0) / static_cast<double>(most) : ends.front();
+    const auto most = *std::max_element(within.begin(), within.end());
+    const double evenly = static_cast<double>(layer) * band / depth;
+    if (most < 10 || static_cast<double>(most) < 2.0 * evenly) {
+        return ends.front();
+    }
+    const auto first = std::find_if(within.begin(), within.end(), [&](auto n) { return 2 * n >= most; }) - within.begin();
+    const auto last =
+        std::upper_bound(ends.begin() + first, ends.begin() + layer, ends[static_cast<std::size_t>(first)] + 2.0 * band) - ends.begin();
+    const auto begin = std::max_element(within.begin() + first, within.begin() + last) - within.begin();
+    const auto count = within[static_cast<std::size_t>(begin)];
+    return std::accumulate(ends.begin() + begin, ends.begin() + begin + count, 0.0) / static_cast<double>(count);
 }
 
 // Two spheres in one place are one that was written twice.

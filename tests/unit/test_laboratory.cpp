@@ -8,6 +8,7 @@
 #include "lab/axial_results.hpp"
 #include "lab/deck.hpp"
 #include "lab/derived.hpp"
+#include "lab/progress.hpp"
 #include "lab/protocols/registry.hpp"
 #include "tests/support.hpp"
 
@@ -95,6 +96,12 @@ TEST_CASE("the loading is what is neither preparation nor cycle, counted from wh
     CHECK(l.volume == std::vector<double>{4.0, 8.0});
     CHECK(l.stress == std::vector<double>{15.0, 20.0}); // stresses are total
     CHECK(l.deviator == std::vector<double>{18.0, 24.0});
+}
+
+TEST_CASE("the time that is left is bounded, or said to be unknown while next to nothing is done") {
+    CHECK(Progress::left(60.0, 0.5).starts_with("at most 1 min"));
+    CHECK(Progress::left(60.0, 1e-12).starts_with("time left unknown"));
+    CHECK(Progress::left(60.0, 0.0).starts_with("time left unknown"));
 }
 
 TEST_CASE("faces: distance, normal and width of flat, hollow and ring-shaped surfaces") {
