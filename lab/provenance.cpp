@@ -165,7 +165,8 @@ input::Json with_beginning_of(const std::string& file, input::Json fresh) {
     std::ifstream in(file);
     const input::Json there = in ? input::Json::parse(in, nullptr, false) : input::Json();
     std::vector<std::string> kept{"command", "started"};
-    for (const auto& [key, value] : program_facts().items()) {
+    const input::Json facts = program_facts(); // outlives its items
+    for (const auto& [key, value] : facts.items()) {
         kept.push_back(key);
     }
     for (const auto& key : kept) {

@@ -45,7 +45,7 @@ std::string text_of(const std::vector<Touched>& ends) {
 }
 
 // Number of the piece that each sphere belongs to: that of its first sphere.
-std::vector<std::size_t> pieces(const Bonds& bonds, std::size_t spheres) {
+std::vector<std::size_t> piece_of_each(const Bonds& bonds, std::size_t spheres) {
     std::vector<std::size_t> root(spheres);
     std::iota(root.begin(), root.end(), std::size_t{0});
     const auto find = [&](std::size_t k) {
@@ -76,7 +76,7 @@ std::optional<std::string> not_pressable(const Shape& shape, const Spheres& sphe
     if (std::any_of(ends.begin(), ends.end(), [&](const Touched& t) { return t.sphere.size() < least || t.cover < least_cover; })) {
         return fmt::format("{}; at least {} and {} of the area take part in pressing a solid body", text_of(ends), least, least_cover);
     }
-    const auto piece = pieces(bonds, spheres.size());
+    const auto piece = piece_of_each(bonds, spheres.size());
     std::vector<std::size_t> size(spheres.size(), 0);
     for (const auto p : piece) {
         ++size[p];

@@ -49,7 +49,7 @@ const Json* value_at(const Json& json, const std::string& path) {
 }
 
 // Where a key of a test's deck was written.
-struct Places {
+struct TestPlaces {
     const Json& common;
     const Json& own;
     std::string file, source, at; // the sweep or calibration, the deck's file, and the test in the former
@@ -64,7 +64,7 @@ struct Places {
 
 // Trials keep curve and results: what `proveta run` writes besides is refused where somebody asks for it. The decks keep its defaults, with
 // which `proveta run` shows a trial.
-void check_output(const TrialTest& test, const Places& places, input::Problems& problems) {
+void check_output(const TrialTest& test, const TestPlaces& places, input::Problems& problems) {
     for (const auto& [key, hint] : {std::pair{"fields", "proveta run trials/KEY/JOB/deck.json writes those of one trial"},
                                     {"pictures", "proveta run trials/KEY/JOB/deck.json draws those of one trial"},
                                     {"checkpoint_every", "a test that is stopped begins anew; those that have ended are kept"}}) {
@@ -80,7 +80,7 @@ void check_output(const TrialTest& test, const Places& places, input::Problems& 
 }
 
 // The seeds of a test's specimens, none for a stored one.
-std::vector<std::int64_t> seeds_of(const TrialTest& test, const TestKeys& keys, bool given, const Places& places,
+std::vector<std::int64_t> seeds_of(const TrialTest& test, const TestKeys& keys, bool given, const TestPlaces& places,
                                    input::Problems& problems) {
     std::vector<std::int64_t> out;
     if (!test.deck["specimen"].value("file", "").empty()) {
@@ -178,7 +178,7 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
             keep(error, file, at + "/deck", own_file, problems);
             continue;
         }
-        const Places places{common, deck, file, source, at};
+        const TestPlaces places{common, deck, file, source, at};
         test.seeds = seeds_of(test, keys, rest.contains("seeds"), places, problems);
         if (!rules.begun) {
             check_output(test, places, problems);
