@@ -21,6 +21,7 @@ import re
 import statistics
 import subprocess
 import sys
+import textwrap
 
 DOCS = pathlib.Path(__file__).resolve().parent
 UNITS = {"": 1.0, "%": 1e2, "MPa": 1e-6, "GPa": 1e-9, "J/m2": 1.0}
@@ -89,8 +90,8 @@ def markdown(table, measured):
             f"{100.0 * (mean / first - 1.0):+.1f} %")
         out.append(f"| {row['row']} | `{test['deck']}` | {wanted} | {found} | {off} |")
     settings = [f"{key}: `{', '.join(test['set'])}`" for key, test in table["tests"].items() if test.get("set")]
-    out += ["", f"Measured on {measured['date']} by {measured['by']}; `docs/measure.py PROVETA {measured['name']}`"
-            + (f" ({'; '.join(settings)})" if settings else "") + "."]
+    how = f" ({'; '.join(settings)})" if settings else ""
+    out += ["", textwrap.fill(f"Measured on {measured['date']} by {measured['by']}; `docs/measure.py PROVETA {measured['name']}`{how}.", 120)]
     return "\n".join(out)
 
 

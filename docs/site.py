@@ -110,7 +110,7 @@ def main():
     parser.add_argument("program", type=pathlib.Path)
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("pages", type=pathlib.Path)
-    parser.add_argument("--spheres", type=int, help="spheres of every specimen, to be done sooner")
+    parser.add_argument("--spheres", type=int, help="spheres of every specimen, and a short test of stones, to be done sooner")
     a = parser.parse_args()
     shutil.rmtree(a.pages, ignore_errors=True)
     shutil.copytree(a.source / "docs", a.pages, ignore=shutil.ignore_patterns("*.py"))
@@ -120,6 +120,8 @@ def main():
         for name, deck in DECKS.items():
             if a.spheres and "spheres" in deck["specimen"]:
                 deck = {**deck, "specimen": {**deck["specimen"], "spheres": a.spheres}}
+            elif a.spheres:  # stones
+                deck = {**deck, "loading": {**deck["loading"], "stop": {"axial_strain": 0.003}}}
             print(f"a run of {name}", flush=True)
             tests[name] = page_of(str(a.program.resolve()), name, deck, a.pages, pathlib.Path(work))
     (a.pages / "conformity.md").write_text(conformity(tests))
