@@ -35,10 +35,10 @@ class Hash {
     void mix_value(std::int64_t value) { mix(static_cast<std::uint64_t>(value)); }
     template <class T> void mix_value(const std::vector<T>& values) {
         mix(static_cast<std::uint64_t>(values.size()));
-        for (const T v : values) {
-            if constexpr (std::is_floating_point_v<T>) {
-                mix(std::bit_cast<std::uint64_t>(v));
-            } else {
+        if constexpr (std::is_same_v<T, double>) {
+            mix(values);
+        } else {
+            for (const T v : values) {
                 mix(static_cast<std::uint64_t>(v));
             }
         }

@@ -62,16 +62,22 @@ void Model::search() {
 
 // How far two bodies may approach each other in a step, m; 0 where impacts do not count.
 double Model::way_of_step() const {
+    if (numerics_.impact_steps <= 0.0) {
+        return 0.0;
+    }
     double speed = 2.0 * fastest_;
     for (const auto& surface : walls.surfaces) {
         speed = std::max(speed, fastest_ + surface.drive.velocity.norm() + surface.drive.spin.norm() * surface.reach());
     }
-    return numerics_.impact_steps > 0.0 ? speed * dt_ : 0.0;
+    return speed * dt_;
 }
 
 // The skin must be wide enough for pairs to be listed a step before they can meet.
 void Model::look_ahead() {
-    for (std::size_t k = 0; k < spheres.size() && numerics_.impact_steps > 0.0; ++k) {
+    if (numerics_.impact_steps <= 0.0) {
+        return;
+    }
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
         fastest_ = std::max(fastest_, spheres.velocity.at(k).norm());
     }
     if (const double least = 2.0 * way_of_step(); skin_ < least) {

@@ -5,8 +5,9 @@
 
 namespace proveta {
 
-std::vector<int> fragments(const Model& model) {
-    const std::size_t n = model.spheres.size();
+std::vector<int> fragments(const Model& model) { return fragments(model.bonds, model.spheres.size()); }
+
+std::vector<int> fragments(const Bonds& bonds, std::size_t n) {
     std::vector<std::size_t> parent(n);
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto root = [&](std::size_t k) {
@@ -16,9 +17,9 @@ std::vector<int> fragments(const Model& model) {
         }
         return k;
     };
-    for (std::size_t b = 0; b < model.bonds.size(); ++b) {
-        if (model.bonds.mode[b] == 0) {
-            parent[root(static_cast<std::size_t>(model.bonds.i[b]))] = root(static_cast<std::size_t>(model.bonds.j[b]));
+    for (std::size_t b = 0; b < bonds.size(); ++b) {
+        if (bonds.mode[b] == 0) {
+            parent[root(static_cast<std::size_t>(bonds.i[b]))] = root(static_cast<std::size_t>(bonds.j[b]));
         }
     }
     std::vector<std::size_t> size(n, 0);
@@ -43,15 +44,21 @@ std::vector<int> fragments(const Model& model) {
     return out;
 }
 
+std::vector<std::size_t> fragment_sizes(const std::vector<int>& fragments) {
+    std::vector<std::size_t> size(
+        fragments.empty() ? 0 : static_cast<std::size_t>(*std::max_element(fragments.begin(), fragments.end())) + 1, 0);
+    for (const int f : fragments) {
+        ++size[static_cast<std::size_t>(f)];
+    }
+    return size;
+}
+
 std::vector<std::uint8_t> detached_spheres(const Model& model) {
     if (model.bonds.size() == 0) {
         return std::vector<std::uint8_t>(model.spheres.size(), 0); // loose matter: nothing to come off
     }
     const auto number = fragments(model);
-    std::vector<std::size_t> size(number.empty() ? 0 : static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1, 0);
-    for (const int f : number) {
-        ++size[static_cast<std::size_t>(f)];
-    }
+    const auto size = fragment_sizes(number);
     std::vector<std::uint8_t> out(number.size());
     std::transform(number.begin(), number.end(), out.begin(),
                    [&](int f) { return size[static_cast<std::size_t>(f)] * 100 < number.size() ? std::uint8_t{1} : std::uint8_t{0}; });

@@ -41,9 +41,11 @@ void search_platen(const Spheres& spheres, const std::vector<Material>& material
     for (std::size_t s = 0; s < spheres.size(); ++s) {
         const double touch = p.capped[s] > 0.0 ? p.capped[s] : spheres.radius[s];
         const auto foot = p.foot(spheres.position.at(s));
+        if (foot.distance > touch + skin || foot.distance < 0.0) { // behind the surface: escaped, not pressed
+            continue;
+        }
         // Whether a sphere lies under a strip is settled at the start: one that came in from its edge would be deep in it at once.
-        if (!p.face.reaches(p.foot(spheres.start.at(s)), spheres.radius[s]) || foot.distance > touch + skin ||
-            foot.distance < 0.0) { // behind the surface: escaped, not pressed
+        if (!p.face.reaches(p.foot(spheres.start.at(s)), spheres.radius[s])) {
             continue;
         }
         const auto id = static_cast<std::int32_t>(s);

@@ -23,43 +23,53 @@ double of_pairs(const Spheres& s, const Contacts& c, double steps) {
     return lowest;
 }
 
-double of_surface(const Spheres& s, const Surface& surface, double skin, double steps) {
+// How fast a contact closes, m/s, and how far its point is from the sphere's centre, m.
+struct Closing {
+    double speed, distance;
+};
+
+// Over the faces that listed spheres touch or are about to. own: takes a point to the frame of the geometry; closing: of a contact, by its
+// sphere and that one's centre.
+template <class ToOwn, class ClosingOf>
+double of_faces(const Spheres& s, const NearFaces& near, const std::vector<LooseContact>& law, const SurfaceGeometry& geometry, double skin,
+                double steps, const ToOwn& own, const ClosingOf& closing_of) {
     double lowest = none;
     std::vector<FaceContact> found;
-    for (std::size_t e = 0; e < surface.sphere.size(); ++e) {
-        const auto k = static_cast<std::size_t>(surface.sphere[e]);
+    for (std::size_t e = 0; e < near.sphere.size(); ++e) {
+        const auto k = static_cast<std::size_t>(near.sphere[e]);
         const Vec3 centre = s.position.at(k);
-        double_hierarchy(surface.geometry, surface.faces_near(e), surface.to_own(centre), s.radius[k] + skin, found);
+        double_hierarchy(geometry, near.faces_near(e), own(centre), s.radius[k] + skin, found);
         for (const auto& contact : found) {
-            const Vec3 point = surface.to_space(contact.point);
-            const Vec3 to = centre - point;
-            const double distance = to.norm();
-            const Vec3 driven = surface.drive.velocity + surface.drive.spin.cross(point - surface.origin);
-            const double speed = (driven - s.velocity.at(k)).dot(surface.normal_at(contact, to, distance));
-            lowest = std::min(lowest, impact_step(surface.law[e], speed, s.radius[k] - distance, steps));
+            const Closing closing = closing_of(contact, k, centre);
+            lowest = std::min(lowest, impact_step(law[e], closing.speed, s.radius[k] - closing.distance, steps));
         }
     }
     return lowest;
 }
 
+double of_surface(const Spheres& s, const Surface& surface, double skin, double steps) {
+    return of_faces(
+        s, surface, surface.law, surface.geometry, skin, steps, [&](const Vec3& centre) { return surface.to_own(centre); },
+        [&](const FaceContact& contact, std::size_t k, const Vec3& centre) -> Closing {
+            const Vec3 point = surface.to_space(contact.point);
+            const Vec3 to = centre - point;
+            const double distance = to.norm();
+            const Vec3 driven = surface.drive.velocity + surface.drive.spin.cross(point - surface.origin);
+            return {(driven - s.velocity.at(k)).dot(surface.normal_at(contact, to, distance)), distance};
+        });
+}
+
 double of_body(const Spheres& s, const Deformable& body, double skin, double steps) {
-    double lowest = none;
-    std::vector<FaceContact> found;
-    for (std::size_t e = 0; e < body.sphere.size(); ++e) {
-        const auto k = static_cast<std::size_t>(body.sphere[e]);
-        const Vec3 centre = s.position.at(k);
-        double_hierarchy(body.skin.geometry(), body.faces_near(e), centre, s.radius[k] + skin, found);
-        for (const auto& contact : found) {
+    return of_faces(
+        s, body, body.law, body.skin.geometry(), skin, steps, [](const Vec3& centre) { return centre; },
+        [&](const FaceContact& contact, std::size_t k, const Vec3& centre) -> Closing {
             const double distance = std::sqrt(contact.square);
-            if (distance == 0.0) {
-                continue;
+            if (distance == 0.0) { // without a direction
+                return {0.0, 0.0};
             }
             const Vec3 velocity = body.skin.velocity(contact.face, body.skin.coordinates(contact.face, contact.point));
-            const double speed = (velocity - s.velocity.at(k)).dot(centre - contact.point) / distance;
-            lowest = std::min(lowest, impact_step(body.law[e], speed, s.radius[k] - distance, steps));
-        }
-    }
-    return lowest;
+            return {(velocity - s.velocity.at(k)).dot(centre - contact.point) / distance, distance};
+        });
 }
 
 } // namespace

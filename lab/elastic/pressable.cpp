@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "lab/axial_results.hpp"
+#include "lab/fragments.hpp"
 
 namespace proveta {
 
@@ -44,28 +44,6 @@ std::string text_of(const std::vector<Touched>& ends) {
                        ends[1].sphere.size(), ends[0].cover, ends[1].cover);
 }
 
-// Number of the piece that each sphere belongs to: that of its first sphere.
-std::vector<std::size_t> piece_of_each(const Bonds& bonds, std::size_t spheres) {
-    std::vector<std::size_t> root(spheres);
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t k) {
-        while (root[k] != k) {
-            root[k] = root[root[k]];
-            k = root[k];
-        }
-        return k;
-    };
-    for (std::size_t b = 0; b < bonds.size(); ++b) {
-        const std::size_t one = find(static_cast<std::size_t>(bonds.i[b]));
-        const std::size_t other = find(static_cast<std::size_t>(bonds.j[b]));
-        root[std::max(one, other)] = std::min(one, other);
-    }
-    for (std::size_t k = 0; k < spheres; ++k) {
-        root[k] = find(k);
-    }
-    return root;
-}
-
 } // namespace
 
 std::string touched_spheres(const Shape& shape, const Spheres& spheres) { return text_of(touched(shape, spheres)); }
@@ -76,20 +54,15 @@ std::optional<std::string> not_pressable(const Shape& shape, const Spheres& sphe
     if (std::any_of(ends.begin(), ends.end(), [&](const Touched& t) { return t.sphere.size() < least || t.cover < least_cover; })) {
         return fmt::format("{}; at least {} and {} of the area take part in pressing a solid body", text_of(ends), least, least_cover);
     }
-    const auto piece = piece_of_each(bonds, spheres.size());
-    std::vector<std::size_t> size(spheres.size(), 0);
-    for (const auto p : piece) {
-        ++size[p];
-    }
-    const auto largest = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
-    const auto loose = static_cast<std::size_t>(std::count(size.begin(), size.end(), std::size_t{1}));
-    const auto all = static_cast<std::size_t>(std::count_if(size.begin(), size.end(), [](std::size_t n) { return n > 0; }));
+    const auto piece = fragments(bonds, spheres.size());
+    const auto size = fragment_sizes(piece);
+    const auto single = std::count(size.begin(), size.end(), std::size_t{1});
     const bool spans = std::all_of(ends.begin(), ends.end(), [&](const Touched& t) {
-        return std::any_of(t.sphere.begin(), t.sphere.end(), [&](std::size_t k) { return piece[k] == largest; });
+        return std::any_of(t.sphere.begin(), t.sphere.end(), [&](std::size_t k) { return piece[k] == 0; }); // the largest
     });
-    if (!spans || static_cast<double>(size[largest]) < whole_piece * static_cast<double>(spheres.size())) {
-        return fmt::format("its bonds leave it in {} pieces, {} of them single spheres; the largest has {} of {} spheres{}", all, loose,
-                           size[largest], spheres.size(), spans ? "" : " and does not reach from platen to platen");
+    if (!spans || static_cast<double>(size.front()) < whole_piece * static_cast<double>(spheres.size())) {
+        return fmt::format("its bonds leave it in {} pieces, {} of them single spheres; the largest has {} of {} spheres{}", size.size(),
+                           single, size.front(), spheres.size(), spans ? "" : " and does not reach from platen to platen");
     }
     return std::nullopt;
 }
