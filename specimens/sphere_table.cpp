@@ -83,12 +83,12 @@ SphereColumns by_order(const input::TextTable& table) {
             fmt::format("{}: {} columns without headings where x y z r, and perhaps a group, are expected; {}", table.file(), width, ways));
     }
     const auto positive = [&](std::size_t c) {
-        const auto values = table.numbers(c);
+        const auto& values = table.numbers(c);
         return std::all_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
     };
     // A radius varies less than a place does, which goes from one end of the specimen to the other.
     const auto spread = [&](std::size_t c) {
-        const auto values = table.numbers(c);
+        const auto& values = table.numbers(c);
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         return *high - *low;
     };

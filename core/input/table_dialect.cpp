@@ -42,6 +42,37 @@ Cell TableDialect::kind(std::string_view cell, double& value) const {
     return is_missing(cell) ? Cell::missing : Cell::text;
 }
 
+bool TableDialect::read_row(std::string_view line, std::vector<double>& row) const {
+    const char* at = line.data();
+    const char* const end = at + line.size();
+    const fast_float::parse_options options(fast_float::chars_format::general, decimal);
+    const auto pass_blanks = [&] {
+        while (at < end && (*at == ' ' || (*at == '\t' && separator != '\t'))) {
+            ++at;
+        }
+    };
+    for (double& value : row) {
+        pass_blanks();
+        const auto found = fast_float::from_chars_advanced(at, end, value, options);
+        if (found.ec != std::errc() || !std::isfinite(value)) {
+            return false;
+        }
+        at = found.ptr;
+        if (&value == &row.back()) {
+            break;
+        }
+        if (separator != ' ') {
+            pass_blanks();
+        }
+        if (at == end || (*at != separator && !(separator == ' ' && *at == '\t'))) {
+            return false;
+        }
+        ++at;
+    }
+    pass_blanks();
+    return at == end;
+}
+
 bool TableDialect::split(std::string_view line, std::vector<std::string_view>& cells) const {
     cells.clear();
     const bool blanks = separator == ' ';

@@ -17,6 +17,7 @@ namespace proveta::input {
 namespace {
 
 constexpr std::size_t looked_at = 400; // lines from which dialect and columns are made out
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 // A comment, or nothing at all; "#N/A" is a missing cell.
 bool is_comment(std::string_view line) {
@@ -159,29 +160,64 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
         throw std::runtime_error(file_ + ": no rows of numbers");
     }
 
-    const auto lines = static_cast<std::size_t>(std::count(text_.begin(), text_.end(), '\n')) + 1;
-    cells_.reserve(width * lines);
-    line_.reserve(lines);
-    std::vector<std::string_view> cells;
-    number = first[start] - 1;
-    for (auto at = static_cast<std::size_t>(sample[start].data() - text_.data()); at < text_.size();) {
-        const auto line = take_line(text_, at);
-        ++number;
-        if (is_comment(line)) {
-            continue;
-        }
-        split(line, number, cells);
-        if (cells.size() == width + 1 && cells.back().empty() && dialect_.separator != ' ') {
-            cells.pop_back(); // a separator at the end of the line
-        }
-        if (cells.size() != width) {
-            const bool commas = dialect_.separator == ',' && cells.size() > width;
-            fail(number, fmt::format("{} cells where the other rows have {}{}", cells.size(), width,
-                                     commas ? "; if decimals have a comma here, separate cells by semicolons or tabs" : ""));
-        }
-        cells_.insert(cells_.end(), cells.begin(), cells.end());
-        line_.push_back(number);
+    take_rows(static_cast<std::size_t>(sample[start].data() - text_.data()), first[start]);
+}
+
+// From a place in the text, and the number of the line there.
+void TextTable::take_rows(std::size_t at, std::size_t number) {
+    const std::size_t width = columns_.size();
+    const auto lines = static_cast<std::size_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at), text_.end(), '\n')) + 1;
+    values_.resize(width);
+    for (auto& column : values_) {
+        column.reserve(lines);
     }
+    first_text_.assign(width, none);
+    line_.reserve(lines);
+    at_.reserve(lines);
+    std::vector<double> row(width);
+    std::vector<std::string_view> cells;
+    for (; at < text_.size(); ++number) {
+        const std::size_t begin = at;
+        const auto line = take_line(text_, at);
+        if (dialect_.read_row(line, row)) {
+            for (std::size_t c = 0; c < width; ++c) {
+                values_[c].push_back(row[c]);
+            }
+        } else if (is_comment(line)) {
+            continue;
+        } else {
+            split(line, number, cells);
+            if (cells.size() == width + 1 && cells.back().empty() && dialect_.separator != ' ') {
+                cells.pop_back(); // a separator at the end of the line
+            }
+            if (cells.size() != width) {
+                const bool commas = dialect_.separator == ',' && cells.size() > width;
+                fail(number, fmt::format("{} cells where the other rows have {}{}", cells.size(), width,
+                                         commas ? "; if decimals have a comma here, separate cells by semicolons or tabs" : ""));
+            }
+            take_row(cells);
+        }
+        line_.push_back(number);
+        at_.push_back(begin);
+    }
+}
+
+void TextTable::take_row(const std::vector<std::string_view>& cells) {
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        double value = 0.0;
+        const Cell is = dialect_.kind(cells[c], value);
+        values_[c].push_back(is == Cell::number ? value : std::numeric_limits<double>::quiet_NaN());
+        if (is == Cell::text && first_text_[c] == none) {
+            first_text_[c] = line_.size();
+        }
+    }
+}
+
+std::string_view TextTable::cell(std::size_t row, std::size_t column) const {
+    std::size_t at = at_[row];
+    std::vector<std::string_view> cells;
+    split(take_line(text_, at), line_[row], cells);
+    return cells[column];
 }
 
 void TextTable::name_columns(const std::vector<std::vector<std::string_view>>& above) {
@@ -199,19 +235,13 @@ void TextTable::name_columns(const std::vector<std::vector<std::string_view>>& a
     }
 }
 
-std::vector<double> TextTable::numbers(std::size_t column) const {
-    std::vector<double> out(rows());
-    for (std::size_t r = 0; r < rows(); ++r) {
-        const auto found = cell(r, column);
-        const Cell is = dialect_.kind(found, out[r]);
-        if (is == Cell::text) {
-            const auto& heading = columns_[column].heading;
-            fail(line_[r],
-                 fmt::format("\"{}\" is no number{}", found.substr(0, 40), heading.empty() ? "" : ", in column \"" + heading + "\""));
-        }
-        out[r] = is == Cell::missing ? std::numeric_limits<double>::quiet_NaN() : out[r];
+const std::vector<double>& TextTable::numbers(std::size_t column) const {
+    if (const std::size_t row = first_text_[column]; row != none) {
+        const auto& heading = columns_[column].heading;
+        fail(line_[row], fmt::format("\"{}\" is no number{}", cell(row, column).substr(0, 40),
+                                     heading.empty() ? "" : ", in column \"" + heading + "\""));
     }
-    return out;
+    return values_[column];
 }
 
 std::size_t TextTable::find(const std::string& wanted) const {

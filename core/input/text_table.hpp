@@ -33,12 +33,13 @@ class TextTable {
     [[nodiscard]] bool has_headings() const { return headings_; }
     /// Line of the file, from 1, in which a row stands.
     [[nodiscard]] std::size_t line(std::size_t row) const { return line_[row]; }
-    [[nodiscard]] std::string_view cell(std::size_t row, std::size_t column) const { return cells_[row * columns_.size() + column]; }
+    /// What is written in a cell; its line is looked at again.
+    [[nodiscard]] std::string_view cell(std::size_t row, std::size_t column) const;
     /// Whether most of a column's cells are numbers.
     [[nodiscard]] bool is_number(std::size_t column) const { return numeric_[column]; }
 
     /// A column's numbers; missing cells are NaN. Throws std::runtime_error naming the line of a cell that is neither.
-    [[nodiscard]] std::vector<double> numbers(std::size_t column) const;
+    [[nodiscard]] const std::vector<double>& numbers(std::size_t column) const;
 
     /// Index of a column by its heading, its name without unit, or its number from 1. Throws std::runtime_error when there is none, naming
     /// those that there are, or when two have that heading.
@@ -51,6 +52,8 @@ class TextTable {
     [[noreturn]] void fail(std::size_t line, const std::string& what) const;
     void split(std::string_view text, std::size_t line, std::vector<std::string_view>& cells) const;
     void name_columns(const std::vector<std::vector<std::string_view>>& above);
+    void take_rows(std::size_t at, std::size_t number);
+    void take_row(const std::vector<std::string_view>& cells);
 
     std::string file_;
     std::string text_;
@@ -59,8 +62,10 @@ class TextTable {
     std::string passed_over_; // why what stands above the rows does not name the columns
     std::vector<TextColumn> columns_;
     std::vector<bool> numeric_;
-    std::vector<std::string_view> cells_; // row by row, into text_
-    std::vector<std::size_t> line_;
+    std::vector<std::vector<double>> values_; // of each column; NaN where a cell is missing or text
+    std::vector<std::size_t> first_text_;     // of each column, the first row with text there; `none`
+    std::vector<std::size_t> line_;           // of each row, the number of its line
+    std::vector<std::size_t> at_;             // of each row, where its line begins in text_
 };
 
 } // namespace proveta::input
