@@ -234,6 +234,7 @@ CalibrationPlan read_calibration(const std::string& file) {
     plan.tests =
         take_tests(json, plan.source, problems, {true, begun.is_object(), begun.is_object() ? begun.value("decks", Json()) : Json()});
     input::read(json, plan.input, file, "", problems);
+    refuse_levels(json, "a calibration looks anywhere between the bounds", file, problems);
     auto& in = plan.input;
     std::vector<Json> decks;
     for (const auto& test : plan.tests) {

@@ -80,9 +80,6 @@ void check_keys(const SweepInput& input, const std::string& file, input::Problem
         if (!std::all_of(p.name.begin(), p.name.end(), usual)) {
             problems.push_back({file, at + "/name", "\"" + p.name + "\"", "a name of letters, digits, '_', '-' and '.'", ""});
         }
-        if (!p.values.empty() && input.design != "grid") {
-            problems.push_back({file, at + "/values", "a list", "low and high for any design but a grid", ""});
-        }
     }
     double points = static_cast<double>(input.points);
     const char* path = "/points";
@@ -98,6 +95,14 @@ void check_keys(const SweepInput& input, const std::string& file, input::Problem
     if (points > static_cast<double>(most_points)) {
         problems.push_back({file, path, fmt::format("{:.0f} points", points), fmt::format("at most {} points", most_points), ""});
     }
+}
+
+// Keys that a design does not look at.
+std::vector<std::string> unused_keys(const std::string& design) {
+    return design == "grid"              ? std::vector<std::string>{"points", "levels", "seed"}
+           : design == "sobol"           ? std::vector<std::string>{"levels", "seed"}
+           : design == "latin_hypercube" ? std::vector<std::string>{"levels"}
+                                         : std::vector<std::string>{};
 }
 
 void lay_out(Sweep& sweep) {
@@ -162,6 +167,11 @@ Sweep read_sweep(const std::string& file) {
     check_results(sweep, file, problems);
     input::read(json, sweep.input, file, "", problems);
     check_keys(sweep.input, file, problems);
+    const std::string design = "the design is " + sweep.input.design;
+    refuse_keys(json, "", unused_keys(sweep.input.design), design, file, problems);
+    if (sweep.input.design != "grid") {
+        refuse_levels(json, design, file, problems);
+    }
     std::vector<Json> decks;
     for (const auto& test : sweep.tests) {
         decks.push_back(test.deck);
@@ -204,9 +214,15 @@ std::vector<Trial> trials_of(const Sweep& sweep) {
 
 Json resolved(const Sweep& sweep) {
     Json json = input::write(sweep.input);
+    for (const auto& key : unused_keys(sweep.input.design)) {
+        json.erase(key);
+    }
     for (auto& parameter : json["parameters"]) {
         if (parameter["values"].empty()) {
             parameter.erase("values");
+        }
+        if (sweep.input.design != "grid") {
+            parameter.erase("levels");
         }
     }
     if (!sweep.results.empty()) {

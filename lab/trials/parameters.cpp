@@ -91,6 +91,22 @@ void declare(input::Visitor& v, Parameter& p) {
         "with times: the power that the other one's value is raised to; 2 for a fracture energy over a strength, which fixes a length");
 }
 
+void refuse_keys(const Json& json, const std::string& path, const std::vector<std::string>& keys, const std::string& why,
+                 const std::string& file, input::Problems& problems) {
+    for (const auto& key : keys) {
+        if (json.is_object() && json.contains(key)) {
+            problems.push_back({file, path + "/" + key, json[key].dump(), "nothing, since " + why, "leave it out"});
+        }
+    }
+}
+
+void refuse_levels(const Json& json, const std::string& why, const std::string& file, input::Problems& problems) {
+    const Json parameters = json.is_object() ? json.value("parameters", Json::array()) : Json::array();
+    for (std::size_t k = 0; parameters.is_array() && k < parameters.size(); ++k) {
+        refuse_keys(parameters[k], fmt::format("/parameters/{}", k), {"values", "levels"}, why, file, problems);
+    }
+}
+
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vector<Json>& decks, const std::string& source,
                                input::Problems& problems)
     : parameters_(std::move(parameters)) {

@@ -29,6 +29,12 @@ struct Parameter {
 
 void declare(input::Visitor& v, Parameter& p);
 
+/// Refuses keys that are there and that nothing looks at. why: "the design is sobol".
+void refuse_keys(const input::Json& json, const std::string& path, const std::vector<std::string>& keys, const std::string& why,
+                 const std::string& file, input::Problems& problems);
+/// Refuses the levels of a grid among the parameters of what is none.
+void refuse_levels(const input::Json& json, const std::string& why, const std::string& file, input::Problems& problems);
+
 /// The parameters of a sweep or a calibration, in their order.
 class ParameterSpace {
   public:

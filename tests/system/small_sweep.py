@@ -17,4 +17,7 @@ PARAMETERS = [
 
 def sweep(**changes):
     content = {"title": "Small", "tests": [{"name": "press", "deck": DECK}], "parameters": PARAMETERS, "design": "sobol", "points": 4}
-    return json.loads(json.dumps({**content, **changes}))
+    content |= changes
+    if content["design"] == "grid":
+        content.pop("points")  # which it has none of
+    return json.loads(json.dumps(content))

@@ -258,6 +258,8 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
     CHECK(path_of(R"(, "design": "morris", "levels": 5)") == "/levels");
     CHECK(path_of(R"(, "design": "morris", "points": 50000)") == "/points");
     CHECK(path_of(R"(, "design": "random")") == "/design");
+    CHECK(path_of(R"(, "design": "sobol", "seed": 3)") == "/seed");
+    CHECK(path_of(R"(, "design": "latin_hypercube", "levels": 4)") == "/levels");
     const auto beyond =
         problems_of_sweep(folder.file("b.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs", "material": {"card": "custom"}}}],
         "parameters": [{"path": "material.tau_f", "low": -1, "high": "9 MPa"}, {"path": "material.mu_s", "values": [0.1, 0.2]}]})"));
