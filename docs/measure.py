@@ -9,8 +9,9 @@ Usage: measure.py PROVETA [TABLE ...] [--runs FOLDER] [--jobs N] [--check]
     --check  writes nothing; fails where a mean has moved by more than the row's scatter from what docs/measured.json holds
 
 A table stands in results.md between "<!-- measured: NAME -->" and "<!-- end -->". docs/measures.json says what each is made of: tests by
-their example, what is set in it and the seeds (1 unless said), and rows of results with the relative scatter between seeds that a mean may
-move by. docs/measured.json keeps every value with the program and the day that it was measured by.
+their example, what is set in it and the seeds (1 unless said), and rows: what it is, "test.result" or a formula of such, unit, what is
+wanted, and the relative scatter that a mean may move by. "rows" may name a table that has the same. Of a formula there are as many values as
+its tests have seeds in common. docs/measured.json keeps every value with the program and the day that it was measured by.
 """
 import argparse
 import concurrent.futures
@@ -24,13 +25,15 @@ import sys
 import textwrap
 
 DOCS = pathlib.Path(__file__).resolve().parent
-UNITS = {"": 1.0, "%": 1e2, "MPa": 1e-6, "GPa": 1e-9, "J/m2": 1.0}
+UNITS = {"": 1.0, "%": 1e2, "kPa": 1e-3, "MPa": 1e-6, "GPa": 1e-9, "J/m2": 1.0, "deg": 57.29577951308232}
+COLUMNS = ["row", "result", "unit", "wanted", "scatter"]
 
 
 def read_tables():
     tables = json.loads((DOCS / "measures.json").read_text())
     for table in tables.values():
-        table["rows"] = [dict(zip(table["columns"], row)) for row in table["rows"]]
+        rows = tables[table["rows"]]["rows"] if isinstance(table["rows"], str) else table["rows"]
+        table["rows"] = [row if isinstance(row, dict) else dict(zip(COLUMNS, row)) for row in rows]
     return tables
 
 
@@ -55,20 +58,40 @@ def run(program, folder, test, seed):
         if ran.returncode != 0:
             raise SystemExit(f"{folder}: exit {ran.returncode}: {ran.stderr.strip()}")
         done.write_text(version)
-    return {name: result["value"] for name, result in json.loads((folder / "summary.json").read_text())["results"].items()}
+    summary = json.loads((folder / "summary.json").read_text())
+    results = {name: result["value"] for name, result in summary["results"].items()}
+    if isinstance(summary.get("rate_check"), dict):
+        results["rate_effect"] = summary["rate_check"]["peak_at_rate_over_that_minus_1"]
+    return results
+
+
+def tests_of(result):
+    """Names of the tests that a result or a formula is made of."""
+    return sorted(set(re.findall(r"([a-z]\w*)\.", result)))
+
+
+def value_of(result, measured):
+    """A row's value, from the results of each of its tests."""
+    def number(match):
+        value = measured[match[1]][match[2]]
+        if value is None:
+            raise SystemExit(f"{result}: the test did not determine it")
+        return repr(value)
+
+    return eval(re.sub(r"([a-z]\w*)\.(\w+)", number, result), {"__builtins__": {}})
 
 
 def measure(program, name, table, runs, pool):
     """Values of each row, one a seed."""
     def started(key, test, seed):
-        return pool.submit(run, program, runs / f"{name}-{key.replace(' ', '_')}-{seed}", test, seed)
+        return pool.submit(run, program, runs / f"{name}-{key}-{seed}", test, seed)
 
     found = {key: [started(key, test, seed) for seed in test.get("seeds", [1])] for key, test in table["tests"].items()}
+    found = {key: [future.result() for future in futures] for key, futures in found.items()}
     values = {}
     for row in table["rows"]:
-        values[row["row"]] = [future.result()[row["result"]] for future in found[row["test"]]]
-        if None in values[row["row"]]:
-            raise SystemExit(f"{name}: {row['row']}: a test did not determine its {row['result']}")
+        tests = tests_of(row["result"])
+        values[row["row"]] = [value_of(row["result"], dict(zip(tests, seed))) for seed in zip(*(found[test] for test in tests))]
     return values
 
 
@@ -76,23 +99,39 @@ def digits(value):
     return f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
+def off(wanted, mean):
+    """How far a mean is from what was wanted, a number or a range."""
+    bounds = [float(x) for x in re.findall(r"-?\d+\.?\d*", wanted)]
+    if len(bounds) == 2:
+        return "inside" if min(bounds) <= mean <= max(bounds) else "outside"
+    return f"{100.0 * (mean / bounds[0] - 1.0):+.1f} %" if bounds else ""
+
+
+def settings_of(table):
+    """What is set in the examples: what all tests share, and what each has besides."""
+    tests = table["tests"]
+    shared = [s for s in next(iter(tests.values())).get("set", []) if all(s in t.get("set", []) for t in tests.values())]
+    own = {key: [s for s in test.get("set", []) if s not in shared] for key, test in tests.items()}
+    said = [f"`{s}`" for s in shared] + [f"{key.replace('_', ' ')}: `{', '.join(some)}`" for key, some in own.items() if some]
+    return f" ({'; '.join(said)})" if said else ""
+
+
 def markdown(table, measured):
-    out = [f"{table['about'][0].upper()}{table['about'][1:]}:", "", "| | deck | wanted | found | off |", "|---|---|---|---|---|"]
+    wanted = any(row["wanted"] for row in table["rows"])
+    heads = ["", "example", *(["wanted"] if wanted else []), "found", *(["off"] if wanted else [])]
+    lines = [heads, ["---"] * len(heads)]
     for row in table["rows"]:
-        test = table["tests"][row["test"]]
         scaled = [value * UNITS[row["unit"]] for value in measured["values"][row["row"]]]
         mean = statistics.fmean(scaled)
         unit = f" {row['unit']}" if row["unit"] else ""
-        found = f"{digits(mean)}{unit}" + (f" ({', '.join(map(digits, scaled))})" if len(scaled) > 1 else "")
-        first, *last = (float(x) for x in re.findall(r"-?\d+\.?\d*", row["wanted"]))
-        wanted = row["wanted"] + (unit if row["wanted"] else "")
-        off = "" if not row["wanted"] else ("inside" if min(first, *last) <= mean <= max(first, *last) else "outside") if last else (
-            f"{100.0 * (mean / first - 1.0):+.1f} %")
-        out.append(f"| {row['row']} | `{test['deck']}` | {wanted} | {found} | {off} |")
-    settings = [f"{key}: `{', '.join(test['set'])}`" for key, test in table["tests"].items() if test.get("set")]
-    how = f" ({'; '.join(settings)})" if settings else ""
-    out += ["", textwrap.fill(f"Measured on {measured['date']} by {measured['by']}; `docs/measure.py PROVETA {measured['name']}`{how}.", 120)]
-    return "\n".join(out)
+        seeds = f" ({', '.join(map(digits, scaled))})" if len(scaled) > 1 else ""
+        decks = dict.fromkeys(table["tests"][test]["deck"] for test in tests_of(row["result"]))
+        cells = [row["row"], ", ".join(f"`{deck}`" for deck in decks)]
+        cells += [row["wanted"] + (unit if row["wanted"] else "")] if wanted else []
+        lines.append([*cells, f"{digits(mean)}{unit}{seeds}", *([off(row["wanted"], mean)] if wanted else [])])
+    out = [f"{table['about'][0].upper()}{table['about'][1:]}:", "", *("| " + " | ".join(line) + " |" for line in lines)]
+    how = f"Measured on {measured['date']} by {measured['by']}; `docs/measure.py PROVETA {measured['name']}`{settings_of(table)}."
+    return "\n".join([*out, "", textwrap.fill(how, 120, break_long_words=False, break_on_hyphens=False)])
 
 
 def moved(table, before, after):
