@@ -42,35 +42,39 @@ Cell TableDialect::kind(std::string_view cell, double& value) const {
     return is_missing(cell) ? Cell::missing : Cell::text;
 }
 
-bool TableDialect::read_row(std::string_view line, std::vector<double>& row) const {
-    const char* at = line.data();
-    const char* const end = at + line.size();
+bool TableDialect::read_row(std::string_view text, std::size_t& at, std::vector<double>& row) const {
+    const char* here = text.data() + at;
+    const char* const end = text.data() + text.size();
     const fast_float::parse_options options(fast_float::chars_format::general, decimal);
     const auto pass_blanks = [&] {
-        while (at < end && (*at == ' ' || (*at == '\t' && separator != '\t'))) {
-            ++at;
+        while (here < end && (*here == ' ' || (*here == '\t' && separator != '\t'))) {
+            ++here;
         }
     };
     for (double& value : row) {
+        if (&value != &row.front()) {
+            if (separator != ' ') {
+                pass_blanks();
+            }
+            if (here == end || (*here != separator && !(separator == ' ' && *here == '\t'))) {
+                return false;
+            }
+            ++here;
+        }
         pass_blanks();
-        const auto found = fast_float::from_chars_advanced(at, end, value, options);
+        const auto found = fast_float::from_chars_advanced(here, end, value, options);
         if (found.ec != std::errc() || !std::isfinite(value)) {
             return false;
         }
-        at = found.ptr;
-        if (&value == &row.back()) {
-            break;
-        }
-        if (separator != ' ') {
-            pass_blanks();
-        }
-        if (at == end || (*at != separator && !(separator == ' ' && *at == '\t'))) {
-            return false;
-        }
-        ++at;
+        here = found.ptr;
     }
     pass_blanks();
-    return at == end;
+    if (here < end && *here != '\n' && *here != '\r') {
+        return false;
+    }
+    at = static_cast<std::size_t>(here - text.data());
+    at += text.substr(at, 2) == "\r\n" ? 2 : 1;
+    return true;
 }
 
 bool TableDialect::split(std::string_view line, std::vector<std::string_view>& cells) const {

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "core/input/large_pages.hpp"
+
 namespace proveta::input {
 
 namespace {
@@ -41,6 +43,7 @@ std::string read_text(const std::string& file, std::uintmax_t most) {
     std::error_code unknown; // as of a pipe
     if (const auto size = std::filesystem::file_size(file, unknown); !unknown) {
         text.reserve(size + 1); // of no more than `most`, or of a few bytes where the file is none
+        wish_large_pages(text);
     }
     std::array<char, 65536> piece;
     while (in.read(piece.data(), piece.size()) || in.gcount() > 0) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/input/column_heading.hpp"
+#include "core/input/large_pages.hpp"
 #include "core/input/suggest.hpp"
 #include "core/input/words.hpp"
 
@@ -170,22 +171,26 @@ void TextTable::take_rows(std::size_t at, std::size_t number) {
     values_.resize(width);
     for (auto& column : values_) {
         column.reserve(lines);
+        wish_large_pages(column);
     }
     first_text_.assign(width, none);
-    line_.reserve(lines);
-    at_.reserve(lines);
+    for (auto* of_rows : {&line_, &at_}) {
+        of_rows->reserve(lines);
+        wish_large_pages(*of_rows);
+    }
     std::vector<double> row(width);
     std::vector<std::string_view> cells;
     for (; at < text_.size(); ++number) {
         const std::size_t begin = at;
-        const auto line = take_line(text_, at);
-        if (dialect_.read_row(line, row)) {
+        if (dialect_.read_row(text_, at, row)) {
             for (std::size_t c = 0; c < width; ++c) {
                 values_[c].push_back(row[c]);
             }
-        } else if (is_comment(line)) {
-            continue;
         } else {
+            const auto line = take_line(text_, at);
+            if (is_comment(line)) {
+                continue;
+            }
             split(line, number, cells);
             if (cells.size() == width + 1 && cells.back().empty() && dialect_.separator != ' ') {
                 cells.pop_back(); // a separator at the end of the line
