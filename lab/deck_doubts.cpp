@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/input/quantities.hpp"
 #include "core/input/units.hpp"
 
 namespace proveta {
@@ -57,14 +56,19 @@ void look_at_strengths(const Card& card, const std::string& path, std::vector<st
 
 } // namespace
 
-std::vector<std::string> doubts_of(const Deck& deck) {
+std::vector<std::string> likely_without_unit(const std::vector<DeclaredQuantity>& all) {
     std::vector<std::string> out;
-    for (const auto& q : input::quantities(deck)) {
+    for (const auto& q : all) {
         if (const std::string unit = lacking(q); !unit.empty()) {
             out.push_back(fmt::format("{}: {} is likely to lack its unit: \"{} {}\"?", q.path, format_quantity(q.value, q.unit),
                                       input::format_number(q.value), unit));
         }
     }
+    return out;
+}
+
+std::vector<std::string> doubts_of(const Deck& deck) {
+    std::vector<std::string> out = likely_without_unit(input::quantities(deck));
     if (!deck.protocol->granular()) {
         look_at_strengths(deck.material.values, "/material", out);
         for (std::size_t k = 0; k < deck.regions.size(); ++k) {

@@ -92,7 +92,6 @@ std::vector<GradingPoint> railway_ballast() {
 }
 
 void declare(input::Visitor& v, BedRecipe& r) {
-    const auto stones = v.wants_all() || r.form == "stone";
     v.choice("form", r.form, {{"stone", "clusters of spheres: convex stones with plane facets, no two forms alike"}, {"sphere", "spheres"}},
              "what a particle is");
     v.number_or_word("size", r.size, {{"graded", "sizes follow the sieve curve of grading"}}, Unit::length, above(0),
@@ -107,7 +106,7 @@ void declare(input::Visitor& v, BedRecipe& r) {
                "sieve curve by mass: ascending diameters from passing 0 to passing 1, at first that of a railway ballast; diameters are "
                "sizes as above");
     }
-    if (stones) {
+    if (v.wants_all() || r.form == "stone") {
         v.number("elongation", r.elongation, Unit::none, between(0.1, 1), "intermediate over longest axis (Zingg)");
         v.number("flatness", r.flatness, Unit::none, between(0.1, 1), "shortest over intermediate axis (Zingg)");
         v.integer("facets", r.facets, 6, 200, "plane facets that a stone is cut by; the fewer, the more angular");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/input/declare.hpp"
+#include "core/input/describe.hpp"
 
 // Compiled once (json_compiled.cpp) and not in each of the many files that see it, of whose time it takes a fifth.
 extern template class nlohmann::basic_json<nlohmann::ordered_map>;
@@ -59,6 +60,9 @@ class JsonReader : public Visitor {
   public:
     JsonReader(const Json& json, std::string source, std::string path, Problems& problems);
     void finish(); ///< reports unknown keys of the outermost object
+    [[nodiscard]] bool met_unknown_keys() const { return !unknown_.empty(); }
+    /// Says of keys that were called unknown, and that some choice would have a use for, which choice there is. all: what may be declared.
+    void explain_unknown(const std::vector<ParameterInfo>& all);
 
     void number(const char*, double&, Unit, const Bounds&, const char*) override;
     void number_or_word(const char*, NumberOrWord&, const std::vector<Choice>&, Unit, const Bounds&, const char*) override;
@@ -80,6 +84,12 @@ class JsonReader : public Visitor {
         const Json* json;
         std::string path;
         std::vector<std::string> known;
+        std::vector<std::string> chosen{}; // of the keys with a choice, such as "kind": "fixed"
+    };
+    struct Unknown { // key, and the problem that it was made
+        std::size_t problem;
+        std::string key; // as ParameterInfo has it
+        std::vector<std::string> chosen;
     };
     const Json* find(const char* key);
     void complain(const std::string& path, const std::string& found, const std::string& expected, const std::string& suggestion = "");
@@ -87,6 +97,7 @@ class JsonReader : public Visitor {
     void report_unknown();
 
     std::vector<Frame> frames_;
+    std::vector<Unknown> unknown_;
     std::string source_;
     Problems& problems_;
 };
@@ -145,6 +156,11 @@ template <class T> void read(const Json& json, T& value, const std::string& sour
     JsonReader reader(json, source, path, problems);
     declare(reader, value);
     reader.finish();
+    if (reader.met_unknown_keys()) {
+        Describer all;
+        declare(all, value); // which describing leaves as it is
+        reader.explain_unknown(all.parameters());
+    }
 }
 
 template <class T> Json write(const T& value) {

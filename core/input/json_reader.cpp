@@ -37,6 +37,19 @@ std::string nearest_choice(const std::string& word, const std::vector<Choice>& c
     return best.empty() ? "" : fmt::format("did you mean \"{}\"?", best);
 }
 
+// A JSON pointer as the reference writes it: "/surfaces/0/motion" as "surfaces.N.motion".
+std::string dotted(const std::string& pointer) {
+    std::string out;
+    for (std::size_t at = 1; at <= pointer.size();) {
+        const auto end = std::min(pointer.find('/', at), pointer.size());
+        const auto part = pointer.substr(at, end - at);
+        const bool number = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
+        out += (out.empty() ? "" : ".") + (number ? std::string("N") : part);
+        at = end + 1;
+    }
+    return out;
+}
+
 std::string expected_quantity(Unit unit, const Bounds& bounds) {
     const auto units = accepted_units(unit);
     const std::string si = si_unit(unit);
@@ -156,6 +169,7 @@ void JsonReader::text(const char* key, std::string& value, const char*) {
 void JsonReader::choice(const char* key, std::string& value, const std::vector<Choice>& choices, const char*) {
     const Json* j = find(key);
     if (j == nullptr) {
+        frames_.back().chosen.push_back(fmt::format("\"{}\": \"{}\"", key, value));
         return;
     }
     const std::string text = j->is_string() ? j->get<std::string>() : "";
@@ -164,6 +178,7 @@ void JsonReader::choice(const char* key, std::string& value, const std::vector<C
         return;
     }
     value = text;
+    frames_.back().chosen.push_back(fmt::format("\"{}\": \"{}\"", key, value));
 }
 
 void JsonReader::numbers(const char* key, std::vector<double>& values, std::size_t count, Unit unit, const Bounds& bounds, const char*) {
@@ -220,9 +235,23 @@ void JsonReader::report_unknown() {
         if (std::find(frame.known.begin(), frame.known.end(), key) != frame.known.end()) {
             continue;
         }
+        const std::string at = frame.path.substr(frames_.front().path.size()) + "/" + key;
+        unknown_.push_back({problems_.size(), dotted(at), frame.chosen});
         const std::string best = nearest(key, frame.known);
         complain(frame.path + "/" + key.substr(0, 80), "an unknown key", fmt::format("one of {}", fmt::join(frame.known, ", ")),
                  best.empty() ? "" : fmt::format("did you mean \"{}\"?", best));
+    }
+}
+
+void JsonReader::explain_unknown(const std::vector<ParameterInfo>& all) {
+    for (const auto& [problem, key, chosen] : unknown_) {
+        const auto same = [&, name = key](const ParameterInfo& p) { return p.path == name; };
+        const auto declared = std::find_if(all.begin(), all.end(), same);
+        if (declared != all.end() && !chosen.empty()) {
+            Problem& p = problems_[problem];
+            p.found = fmt::format("a key that nothing looks at with {}: {}", fmt::join(chosen, ", "), declared->meaning);
+            p.suggestion = "choose otherwise, or leave it out";
+        }
     }
 }
 

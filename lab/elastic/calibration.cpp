@@ -23,6 +23,9 @@ constexpr int most_solves = 12;
 // touch single spheres. Where the ends give way a test shows neither E nor nu.
 constexpr double least_by_travel = 0.6;
 constexpr double most_by_travel = 1.6;
+// The factor a: 0.9 in packings with 20 bonds a sphere, 1.3 to 1.7 with 8 to 14; ten times less or more is no specimen's.
+constexpr double smallest_factor = 0.1;
+constexpr double largest_factor = 20.0;
 
 // Solves for a = 1, each from the solution before.
 class Trials {
@@ -136,6 +139,11 @@ ElasticCalibration calibrate_elasticity(const Shape& shape, const Spheres& spher
         throw NotCalibrated(fmt::format("its gauges show nu = {:.3g}, which no solid body has", trial.last().poisson_ratio));
     }
     out.factors.normal_factor = material.young_modulus / trial.last().young_modulus;
+    if (out.factors.normal_factor < smallest_factor || out.factors.normal_factor > largest_factor) {
+        throw NotCalibrated(fmt::format("{}, and its bonds would have to be {:.3g} times as stiff as solid columns between their spheres, "
+                                        "where {:.2g} to {:.2g} times make a specimen",
+                                        touched_spheres(shape, spheres), out.factors.normal_factor, smallest_factor, largest_factor));
+    }
     out.factors.shear_factor = trial.material().shear_factor * out.factors.normal_factor;
     out.factors.averaged_factor = trial.material().averaged_factor;
     out.young_modulus = material.young_modulus;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/deck_doubts.hpp"
 #include "lab/scene/scene_bodies.hpp"
 #include "lab/scene/scene_samples.hpp"
 #include "lab/scene/scene_surfaces.hpp"
@@ -41,9 +42,15 @@ Numerics numerics_of(const Scene& scene, const Feed& feed, const std::vector<Mat
     return n;
 }
 
+// How far a surface's fastest point goes in a step, m.
+double way_in_step(const SurfaceVelocity& drive, const Surface& surface, double dt) {
+    return (drive.velocity.norm() + drive.spin.norm() * surface.reach()) * dt;
+}
+
 } // namespace
 
 ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene), mean_radius_(mean_radius(feed_.kinds())) {
+    notes_ = likely_without_unit(input::quantities(scene));
     const auto materials = materials_of(scene);
     auto surfaces = make_surfaces(scene, materials, notes_);
     const Walls walls({}, std::move(surfaces), make_bodies(scene, materials, notes_));
@@ -72,7 +79,38 @@ ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene), mean_rad
               fmt::format("at most {:.4g} s, {:.0g} steps: no end is in sight of more", most_steps * model_->dt(), most_steps),
               "less time, or a softer young_modulus or larger particles, which make longer steps"}});
     }
+    refuse_fast_surfaces();
     model_->set_skin(numerics.skin * mean_radius_); // the first particles may be none, or the smallest
+}
+
+// A surface that will be too fast for the step as it is now, seen at a thousand moments; what these miss is seen as it moves.
+void ScenePlay::refuse_fast_surfaces() const {
+    constexpr int moments = 1000;
+    input::Problems problems;
+    for (std::size_t k = 0; k < motions_.size(); ++k) {
+        const Surface& surface = model_->walls.surfaces[k];
+        double fastest = 0.0;
+        double when = 0.0;
+        for (int m = 0; m < moments; ++m) {
+            const double t = scene_.stop.time * m / moments;
+            const double way = way_in_step(motions_[k]->at(t, model_->dt(), surface, model_->spheres), surface, model_->dt());
+            if (way > fastest) {
+                fastest = way;
+                when = t;
+            }
+        }
+        if (fastest > longest_way * mean_radius_) {
+            problems.push_back(
+                {scene_.source, fmt::format("/surfaces/{}/motion", k),
+                 fmt::format("{:.3g} m/s at {:.3g} s, {:.3g} m in a step of {:.3g} s", fastest / model_->dt(), when, fastest, model_->dt()),
+                 fmt::format("at most {:.2g} mean radii in a step, {:.3g} m/s: a faster surface might pass through particles", longest_way,
+                             longest_way * mean_radius_ / model_->dt()),
+                 "let it go slower, or give a shorter numerics.time_step"});
+        }
+    }
+    if (!problems.empty()) {
+        throw input::InputError(problems);
+    }
 }
 
 void ScenePlay::step(bool measure) {
@@ -81,7 +119,7 @@ void ScenePlay::step(bool measure) {
     for (std::size_t k = 0; k < motions_.size(); ++k) {
         Surface& surface = model_->walls.surfaces[k];
         surface.drive = motions_[k]->at(model_->time(), model_->dt(), surface, model_->spheres);
-        const double way = (surface.drive.velocity.norm() + surface.drive.spin.norm() * surface.reach()) * model_->dt();
+        const double way = way_in_step(surface.drive, surface, model_->dt());
         if (!(way <= longest_way * mean_radius_)) {
             throw NumericalFailure(
                 fmt::format("surface \"{}\" goes {:.3g} m in a step of {:.3g} s, more than {:.2g} mean radii, and might pass "

@@ -29,10 +29,11 @@ class ScenePlay {
 
     [[nodiscard]] const Model& model() const { return *model_; }
     [[nodiscard]] const Feed& feed() const { return feed_; }
-    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; } ///< on surfaces from files
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; } ///< on values and on surfaces from files
 
   private:
     void choose_skin();
+    void refuse_fast_surfaces() const;
 
     const Scene& scene_;
     Feed feed_;

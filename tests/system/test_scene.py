@@ -151,6 +151,12 @@ class Scenes(Case):
         self.assertGreater(found["results"]["largest_overlap"]["value"], 0.05)
         self.assertIn("largest overlap", " ".join(found["warnings"]).lower())
 
+    def test_what_is_likely_to_lack_its_unit_is_warned_of(self):
+        far = dict(BOX, name="far", position=[0, 0, 200])
+        done = self.run_scene(scene(surfaces=[BOX, far], materials=[dict(GRAIN, material=dict(GRAIN["material"], density=2.5))]), "--check")
+        for path in ("/surfaces/1/position/2: 200 m is likely", "/materials/0/material/density: 2.5 kg/m3 is likely"):
+            self.assertIn(path, done.stderr)
+
     def test_a_time_without_end_is_refused(self):
         done = self.run_scene(scene(stop={"time": 1e9}), code=2)
         self.assertIn("/stop/time", done.stderr)
@@ -203,10 +209,15 @@ class Scenes(Case):
         done = self.run_scene(scene(particles=[grown], numerics={"time_step": "50 ms"}), code=3)
         self.assertIn("stable", done.stdout + done.stderr)
 
-    def test_a_surface_that_would_pass_through_particles_ends_the_run(self):
+    def test_a_surface_that_would_pass_through_particles_is_refused_or_ends_the_run(self):
         ram = {"name": "ram", "shape": "plane", "size": [0.1, 0.1], "position": [0, 0, 0.3],
                "motion": {"kind": "velocity", "velocity": [0, 0, "-300 m/s"]}}
-        done = self.run_scene(scene(surfaces=[BOX, ram], stop={"time": 0.01}), code=3)
+        done = self.run_scene(scene(surfaces=[BOX, ram]), "--check", code=2)
+        self.assertIn("/surfaces/1/motion: found 300 m/s", done.stderr)
+        # So short that it is seen only as it comes: a scene is looked at in advance at a thousand moments, a millisecond apart here.
+        ram["motion"] = {"kind": "expression", "velocity_z": "t > 0.0052 && t < 0.0057 ? -300 : 0"}
+        self.run_scene(scene(surfaces=[BOX, ram], stop={"time": 1}), "--check")
+        done = self.run_scene(scene(surfaces=[BOX, ram], stop={"time": 1}), code=3)
         self.assertIn('surface "ram" goes', done.stdout + done.stderr)
         self.assertEqual(self.result()["status"], "failed")
         # It would fail again, and its checkpoint knows nothing of the failure.

@@ -76,6 +76,13 @@ TEST_CASE("all problems of a deck are reported at once, each with its path") {
     CHECK(card->suggestion == "did you mean \"concrete_sfer\"?");
 }
 
+TEST_CASE("a key that another choice has a use for says so, and which choice there is") {
+    const auto motion = problems_of(R"({"test": "granular-triaxial", "specimen": {"particles": {"form": "sphere", "forms": 3}}})");
+    REQUIRE(has(motion, "/specimen/particles/forms"));
+    const auto key = std::find_if(motion.begin(), motion.end(), [](const auto& p) { return p.path == "/specimen/particles/forms"; });
+    CHECK(key->found.find("nothing looks at with \"form\": \"sphere\"") != std::string::npos);
+}
+
 TEST_CASE("loose contacts, schemes and damping: wrong words and bounds are named") {
     const auto problems = problems_of(R"({"test": "ucs", "material": {"contact_law": "hertzian", "restitution_rule": "tsuji",
         "rolling_friction": -0.1, "contact_restitution": 0}, "numerics": {"scheme": "verlet", "damping": "none", "damping_rotation": -1}})");
