@@ -25,7 +25,7 @@ import sys
 import textwrap
 
 DOCS = pathlib.Path(__file__).resolve().parent
-UNITS = {"": 1.0, "%": 1e2, "kPa": 1e-3, "MPa": 1e-6, "GPa": 1e-9, "J/m2": 1.0, "deg": 57.29577951308232}
+UNITS = {"": 1.0, "%": 1e2, "kPa": 1e-3, "MPa": 1e-6, "GPa": 1e-9, "J/m2": 1.0, "deg": 1.0}
 COLUMNS = ["row", "result", "unit", "wanted", "scatter"]
 
 

@@ -117,12 +117,23 @@ std::vector<report::Scalar> softening_results(const Loading& l) {
              "deviatoric stress over platen strain between 90 % and 60 % of the peak, falling"}};
 }
 
+std::vector<report::Scalar> loop_results(std::size_t n) {
+    return {{fmt::format("unloading_modulus_{}", n), fmt::format("Unloading modulus, cycle {}", n), std::nullopt, "Pa",
+             "secant over the middle gauge from its largest strain to where the platens turned again"},
+            {fmt::format("unloading_strain_{}", n), fmt::format("Strain at unloading, cycle {}", n), std::nullopt, "",
+             "largest strain of the middle gauge, since the loading began"},
+            {fmt::format("residual_strain_{}", n), fmt::format("Residual strain, cycle {}", n), std::nullopt, "",
+             "strain of the middle gauge where the platens turned again, since the loading began"}};
+}
+
 std::vector<report::Scalar> cycle_results(const report::Table& curve, double sense) {
     std::vector<report::Scalar> out;
+    std::size_t n = 0;
     const auto stage = curve.values("stage");
     const auto phase = curve.values("phase");
     const auto strain = curve.values("gauge_axial_strain");
     const auto stress = curve.values("deviatoric_stress");
+    const auto begun = std::find(phase.begin(), phase.end(), phase_loading) - phase.begin();
     for (std::size_t k = 1; k < stage.size(); ++k) {
         if (phase[k] != phase_cycling || phase[k - 1] != phase_loading) {
             continue; // not the first row of an unloading
@@ -137,10 +148,12 @@ std::vector<report::Scalar> cycle_results(const report::Table& curve, double sen
         }
         const double drop = sense * (stress[top] - stress[end]);
         const double back = sense * (strain[top] - strain[end]);
-        const auto n = out.size() + 1;
-        out.push_back({fmt::format("unloading_modulus_{}", n), fmt::format("Unloading modulus, cycle {}", n),
-                       back > 0.0 ? std::optional(drop / back) : std::nullopt, "Pa",
-                       "secant over the middle gauge from its largest strain to where the platens turned again"});
+        const double left = sense * (strain[end] - strain[static_cast<std::size_t>(begun)]);
+        auto loop = loop_results(++n);
+        loop[0].value = back > 0.0 ? std::optional(drop / back) : std::nullopt;
+        loop[1].value = left + back;
+        loop[2].value = left;
+        out.insert(out.end(), loop.begin(), loop.end());
     }
     return out;
 }

@@ -16,8 +16,10 @@ Press axial_press(const Spheres& spheres, const Shape& shape, double friction, d
 std::vector<report::Scalar> elastic_results(const Loading& loading);
 std::vector<report::Scalar> softening_results(const Loading& loading);
 
-/// Modulus of each unloading: secant from its largest strain to where the platens turned again.
+/// Of each unloading its modulus, a secant from the largest strain to where the platens turned again, and the strains there.
 std::vector<report::Scalar> cycle_results(const report::Table& curve, double sense);
+/// What cycle n gives, without values.
+std::vector<report::Scalar> loop_results(std::size_t n);
 
 /// Work of the platens, what cracking took of it, and the cracks' area.
 std::vector<report::Scalar> energy_results(const Measured& measured);

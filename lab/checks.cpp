@@ -48,9 +48,10 @@ std::vector<std::string> warnings_in_press(const Bench& bench, const Deck& deck)
         add_areas(bench, deck, out);
     }
     if (const auto& l = bench.long_bonds; l.count > 0) {
-        out.push_back(fmt::format("{} of {} bonds are longer than {}, so that they tear with less than the card's fracture energy: smaller "
-                                  "spheres, or more tensile_characteristic_length.",
-                                  l.count, bench.model->bonds.size(), input::format_quantity(l.longest_allowed, input::Unit::length)));
+        out.push_back(
+            fmt::format("{} of {} bonds are longer than {:.3g} mm, so that they tear with less than the card's fracture energy: smaller "
+                        "spheres, or more tensile_characteristic_length.",
+                        l.count, bench.model->bonds.size(), 1e3 * l.longest_allowed));
     }
     const Shape& shape = bench.specimen.shape;
     const double across = std::min(shape.lateral_size(), shape.height) / (2.0 * bench.statistics.mean_radius);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "core/input/json.hpp"
 #include "core/input/suggest.hpp"
@@ -273,10 +274,19 @@ report::Record comparison(const std::vector<StoredResult>& tests, const std::str
                 fmt::format("{} is a {} test, {} a {} test.", test.name, test.test, tests.front().name, tests.front().test));
         }
     }
+    std::vector<std::pair<std::string, std::string>> said; // a warning, and who has it
     for (const auto& test : tests) {
         for (const auto& warning : test.warnings) {
-            record.warnings.push_back(test.name + ": " + warning);
+            const auto same = std::find_if(said.begin(), said.end(), [&](const auto& other) { return other.first == warning; });
+            if (same == said.end()) {
+                said.emplace_back(warning, test.name);
+            } else {
+                same->second += ", " + test.name;
+            }
         }
+    }
+    for (const auto& [warning, names] : said) {
+        record.warnings.push_back(names + ": " + warning);
     }
     record.plots.push_back(overlay(tests, x, y));
     record.tables.push_back(comparison_table(tests));

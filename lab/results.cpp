@@ -142,7 +142,8 @@ std::vector<report::Scalar> possible_results(const Deck& deck) {
     const input::Json loading = resolved(deck)["loading"];
     const std::size_t cycles = loading.contains("cycles") ? loading["cycles"].size() : 0;
     for (std::size_t k = 1; k <= cycles; ++k) {
-        out.push_back({fmt::format("unloading_modulus_{}", k), "", std::nullopt, "Pa", ""});
+        const auto loop = loop_results(k);
+        out.insert(out.end(), loop.begin(), loop.end());
     }
     return out;
 }

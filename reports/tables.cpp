@@ -12,11 +12,25 @@ namespace proveta::report {
 
 namespace {
 
-// True for a text that is a number and nothing else.
+// True for a text that is a number, or one in per cent, and nothing else.
 bool numeric(const std::string& text) {
     char* end = nullptr;
     std::strtod(text.c_str(), &end);
-    return !text.empty() && end == text.c_str() + text.size();
+    const std::string_view rest(end);
+    return !text.empty() && end != text.c_str() && (rest.empty() || rest == " %");
+}
+
+// True for a column of numbers, some of which may be missing.
+bool column_of_numbers(const TextTable& t, std::size_t column) {
+    bool any = false;
+    for (std::size_t k = 1; k < t.rows.size(); ++k) {
+        const std::string cell = column < t.rows[k].size() ? t.rows[k][column] : "";
+        any = any || numeric(cell);
+        if (!numeric(cell) && !cell.empty() && cell != "–") {
+            return false;
+        }
+    }
+    return any;
 }
 
 // A path as a relative address: what has a meaning of its own there is no more than a part of a name.
@@ -39,6 +53,10 @@ std::string framed(const std::string& name, const std::string& kind, const std::
 
 std::string table(const TextTable& t) {
     std::string out;
+    std::vector<const char*> kind; // of each column
+    for (std::size_t c = 0; !t.rows.empty() && c < t.rows.front().size(); ++c) {
+        kind.push_back(c > 0 && column_of_numbers(t, c) ? " class=\"num\"" : "");
+    }
     for (std::size_t k = 0; k < t.rows.size(); ++k) {
         out += k == 0 ? "<thead><tr>" : "<tr>";
         for (std::size_t c = 0; c < t.rows[k].size(); ++c) {
@@ -47,12 +65,12 @@ std::string table(const TextTable& t) {
             const std::string shown =
                 link.empty() ? escape(cell) : fmt::format("<a href=\"{}\">{}</a>", relative_address(link), escape(cell));
             if (k == 0) {
-                const bool over_numbers = c > 0 && t.rows.size() > 1 && c < t.rows[1].size() && numeric(t.rows[1][c]);
-                out += cell.empty() ? "<td></td>" : fmt::format("<th scope=\"col\"{}>{}</th>", over_numbers ? " class=\"num\"" : "", shown);
+                out += cell.empty() ? "<td></td>" : fmt::format("<th scope=\"col\"{}>{}</th>", kind[c], shown);
             } else if (c == 0) {
                 out += fmt::format("<th scope=\"row\">{}</th>", shown);
             } else {
-                out += fmt::format("<td{}>{}</td>", numeric(cell) ? " class=\"num\"" : "", shown);
+                const bool number = numeric(cell); // also where others of its column are none
+                out += fmt::format("<td{}>{}</td>", number ? " class=\"num\"" : c < kind.size() ? kind[c] : "", shown);
             }
         }
         out += k == 0 ? "</tr></thead><tbody>\n" : "</tr>\n";

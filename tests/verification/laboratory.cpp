@@ -185,6 +185,10 @@ TEST_CASE("cycles: unloading follows the elastic slope, reloading comes back, th
     // Before bonds break unloading retraces the loading; later it is a little softer than at first.
     CHECK(t.result("unloading_modulus_1").value() == Approx(young).epsilon(0.03));
     CHECK(t.result("unloading_modulus_2").value() == Approx(young).epsilon(0.15));
+    // What is left is what the unloading did not take back; before bonds break that is nothing.
+    CHECK(t.result("unloading_strain_1").value() == Approx(0.0004).epsilon(0.1));
+    CHECK(std::fabs(t.result("residual_strain_1").value() - 0.1 * t.result("unloading_strain_1").value()) < 2e-5);
+    CHECK(t.result("residual_strain_2").value() < t.result("unloading_strain_2").value());
     CHECK(t.result("strength").value() > 10e6);
     const auto phase = t.data.curve.values("phase");
     const auto stress = t.data.curve.values("deviatoric_stress");
