@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "core/input/suggest.hpp"
 #include "lab/protocols/registry.hpp"
@@ -96,6 +99,44 @@ void declare(input::Visitor& v, Deck& d) {
     v.section("output", d.output, "what is written");
 }
 
+namespace {
+
+// What lies outside the specimen, or is beyond any bound that its own making could find.
+void check_reach(const Deck& deck, input::Problems& problems) {
+    if (!deck.specimen.file.empty() || deck.specimen.granular()) {
+        return; // as large as what is in there
+    }
+    const Shape shape = shape_of(deck.specimen);
+    const bool round = shape.kind == ShapeKind::cylinder;
+    const double half_x = 0.5 * (round ? shape.diameter : shape.width);
+    const double half_y = shape.planar() ? 0.0 : 0.5 * (round ? shape.diameter : shape.depth);
+    const double low[3] = {-half_x, -half_y, 0.0};
+    const double high[3] = {half_x, half_y, shape.height};
+    for (std::size_t k = 0; k < deck.regions.size(); ++k) {
+        const auto& r = deck.regions[k];
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (std::min(r.from[c], r.to[c]) > high[c] || std::max(r.from[c], r.to[c]) < low[c]) {
+                problems.push_back({deck.source, fmt::format("/regions/{}", k),
+                                    fmt::format("{} from {:.6g} to {:.6g} m", std::string(1, "xyz"[c]), r.from[c], r.to[c]),
+                                    fmt::format("a box that reaches into the {}, {} from {:.6g} to {:.6g} m", shape.text(),
+                                                std::string(1, "xyz"[c]), low[c], high[c]),
+                                    ""});
+                break;
+            }
+        }
+    }
+    // A stable step is about the time in which a wave crosses a sphere; mass scaling makes it some times longer.
+    const Card& card = deck.material.values;
+    const double radius = std::cbrt(3.0 * shape.volume() / (4.0 * std::numbers::pi * static_cast<double>(deck.specimen.spheres)));
+    const double beyond = 30.0 * radius * std::sqrt(card.density / card.young_modulus);
+    if (deck.numerics.time_step.word.empty() && deck.numerics.time_step.number > beyond && !shape.planar()) {
+        problems.push_back({deck.source, "/numerics/time_step", input::format_quantity(deck.numerics.time_step.number, Unit::time),
+                            fmt::format("a stable step, which is far below {:.2g} s here", beyond), "\"auto\""});
+    }
+}
+
+} // namespace
+
 Deck read_deck(const Json& given, const std::string& file) {
     Json json = given;
     input::Problems problems;
@@ -141,6 +182,7 @@ Deck read_deck(const Json& given, const std::string& file) {
         }
     }
     if (problems.empty()) {
+        check_reach(deck, problems);
         deck.protocol->check(deck, problems);
     }
     if (!problems.empty()) {

@@ -18,6 +18,7 @@ using input::Unit;
 constexpr double low_stress = 1e3;   // Pa
 constexpr double long_length = 10.0; // m
 constexpr double low_density = 50.0; // kg/m3
+constexpr double high_density = 3e4; // kg/m3, above all matter
 // Stiffness over strength of what breaks is some 100 to 100,000.
 constexpr double stiffest = 1e7;
 
@@ -59,6 +60,9 @@ void look_at_strengths(const Card& card, const std::string& path, std::vector<st
 std::vector<std::string> likely_without_unit(const std::vector<DeclaredQuantity>& all) {
     std::vector<std::string> out;
     for (const auto& q : all) {
+        if (q.unit == Unit::density && q.value > high_density) {
+            out.push_back(fmt::format("{}: {} is more than any matter has: is it in kg/m3?", q.path, format_quantity(q.value, q.unit)));
+        }
         if (const std::string unit = lacking(q); !unit.empty()) {
             out.push_back(fmt::format("{}: {} is likely to lack its unit: \"{} {}\"?", q.path, format_quantity(q.value, q.unit),
                                       input::format_number(q.value), unit));

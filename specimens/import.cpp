@@ -19,7 +19,8 @@ namespace proveta {
 
 namespace {
 
-constexpr double widest = 100.0; // m, as of a recipe
+constexpr double widest = 100.0;      // m, as of a recipe
+constexpr double least_filled = 0.25; // of the shape, by the spheres of a packing
 
 // Cyclic change of axes, so that handedness is kept.
 Vec3 turned(const Vec3& p, char axis) {
@@ -234,6 +235,12 @@ Imported import_specimen(const std::string& file, const ImportOptions& o) {
 
     result.notes = std::move(found.notes);
     result.warnings = std::move(found.warnings);
+    if (matter < least_filled * out.shape.volume()) {
+        result.warnings.push_back(
+            fmt::format("the spheres fill {:.2g} of the {}, where packings fill 0.5 to 0.8: sizes in another unit than "
+                        "places, or radii read as diameters?",
+                        matter / out.shape.volume(), out.shape.text()));
+    }
     if (out.shape.height > 5.0 && !found.in_metres && o.scale <= 0.0) {
         result.warnings.push_back(fmt::format("{:.4g} m high: if the file is in mm, give --scale 0.001", out.shape.height));
     }

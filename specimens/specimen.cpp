@@ -46,9 +46,16 @@ void declare(input::Visitor& v, SpecimenRecipe& r) {
               {"prism", "width, depth and height"},
               {"plate", "discs in the plane y = 0, 1 m thick: width and height"}},
              "solid that the spheres fill");
-    v.number("diameter", r.diameter, Unit::length, between(1e-4, 100), "diameter of a cylinder");
-    v.number("width", r.width, Unit::length, between(1e-4, 100), "side of a prism or plate along x");
-    v.number("depth", r.depth, Unit::length, between(1e-4, 100), "side of a prism along y");
+    const bool prism = r.shape == "prism";
+    if (v.wants_all() || (!prism && r.shape != "plate")) {
+        v.number("diameter", r.diameter, Unit::length, between(1e-4, 100), "diameter of a cylinder or disc");
+    }
+    if (v.wants_all() || prism || r.shape == "plate") {
+        v.number("width", r.width, Unit::length, between(1e-4, 100), "side of a prism or plate along x");
+    }
+    if (v.wants_all() || prism) {
+        v.number("depth", r.depth, Unit::length, between(1e-4, 100), "side of a prism along y");
+    }
     v.number("height", r.height, Unit::length, between(1e-4, 100), "height along z");
     v.integer("spheres", r.spheres, 2, 20000000, "number of spheres; with the porosity it gives the mean radius");
     v.number_or_word("porosity", r.porosity, {{"auto", "0.257; of a plate 0.10"}}, Unit::none, between(0.02, 0.9),

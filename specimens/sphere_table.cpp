@@ -79,8 +79,8 @@ SphereColumns by_list(const input::TextTable& table, const std::string& list) {
 SphereColumns by_order(const input::TextTable& table) {
     const std::size_t width = table.columns().size();
     if (width < 4 || width > 5) {
-        throw std::runtime_error(
-            fmt::format("{}: {} columns without headings where x y z r, and perhaps a group, are expected; {}", table.file(), width, ways));
+        throw std::runtime_error(fmt::format("{}: {} columns without headings where x y z r, and perhaps a group, are expected{}; {}",
+                                             table.file(), width, table.passed_over().empty() ? "" : "; " + table.passed_over(), ways));
     }
     const auto positive = [&](std::size_t c) {
         const auto& values = table.numbers(c);
@@ -126,14 +126,29 @@ ReadSpheres read_sphere_table(const std::string& file, const std::string& column
     // A unit in one heading holds for the rest; two that differ are each as they say.
     std::vector<bool> used(table.columns().size(), false);
     double factor = 0.0;
-    for (const auto* c : {&found.x, &found.y, &found.z, found.r ? &found.r : &found.d, &found.group}) {
-        if (*c) {
-            used[(*c)->index] = true;
-            out.in_metres = out.in_metres || (c != &found.group && !table.columns()[(*c)->index].unit.empty());
-            factor = c != &found.group && !table.columns()[(*c)->index].unit.empty() ? (*c)->factor : factor;
-            if (!(*c)->said.empty()) {
-                out.notes.push_back((*c)->said);
-            }
+    std::string unit;
+    const std::vector<const std::optional<MatchedColumn>*> lengths{&found.x, &found.y, &found.z, found.r ? &found.r : &found.d};
+    for (const auto* c : lengths) {
+        used[(*c)->index] = true;
+        if (const std::string& own = table.columns()[(*c)->index].unit; !own.empty()) {
+            out.in_metres = true;
+            factor = (*c)->factor;
+            unit = own;
+        }
+    }
+    for (const auto* c : lengths) {
+        const auto& column = table.columns()[(*c)->index];
+        if (!(*c)->said.empty()) {
+            out.notes.push_back((*c)->said);
+        }
+        if (out.in_metres && column.unit.empty()) {
+            out.notes.push_back(fmt::format("'{}' says no unit and is taken in {} as the others are", column.heading, unit));
+        }
+    }
+    if (found.group) {
+        used[found.group->index] = true;
+        if (!found.group->said.empty()) {
+            out.notes.push_back(found.group->said);
         }
     }
     const auto values = [&](const MatchedColumn& c) {
@@ -168,7 +183,7 @@ ReadSpheres read_sphere_table(const std::string& file, const std::string& column
             fail(fmt::format("{} {:.6g} is not positive", found.r ? "radius" : "diameter", r[k]));
         }
         if (group[k] != std::floor(group[k]) || std::fabs(group[k]) > std::numeric_limits<int>::max()) {
-            fail(fmt::format("\"{}\" is no number of a group", table.cell(k, found.group->index)));
+            fail(fmt::format("\"{}\" is no number of a group; {}", table.cell(k, found.group->index), ways));
         }
         out.spheres.push_back({{x[k], y[k], z[k]}, half * r[k], static_cast<int>(group[k]), static_cast<long long>(table.line(k))});
     }

@@ -179,8 +179,7 @@ std::optional<MatchedColumn> match_column(const TextTable& table, const WantedCo
         }
         out.factor = *factor;
     }
-    const std::string unit = column.unit.empty() ? si_unit(wanted.unit) : column.unit;
-    out.said = fmt::format("read '{}' as {}{}", column.heading, wanted.name, unit.empty() ? "" : ", in " + unit);
+    out.said = fmt::format("read '{}' as {}{}", column.heading, wanted.name, column.unit.empty() ? "" : ", in " + column.unit);
     return out;
 }
 

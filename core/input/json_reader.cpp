@@ -53,9 +53,10 @@ std::string dotted(const std::string& pointer) {
 std::string expected_quantity(Unit unit, const Bounds& bounds) {
     const auto units = accepted_units(unit);
     const std::string si = si_unit(unit);
-    const std::string example = unit == Unit::none ? ""
-                                                   : fmt::format(" (a number in {}, or a text with one of {})",
-                                                                 si.empty() ? "SI units" : si, fmt::join(units, ", "));
+    const std::string example = unit == Unit::none  ? ""
+                                : unit == Unit::any ? " (in SI units, or a text with its unit, such as \"30 MPa\")"
+                                                    : fmt::format(" (a number in {}, or a text with one of {})",
+                                                                  si.empty() ? "SI units" : si, fmt::join(units, ", "));
     const std::string range = bounds.text();
     return (range == "any number" ? range : "a number " + range) + (si.empty() ? "" : " " + si) + example;
 }
@@ -160,7 +161,7 @@ void JsonReader::text(const char* key, std::string& value, const char*) {
         return;
     }
     if (!j->is_string()) {
-        complain(frames_.back().path + "/" + key, shown(*j), "a text");
+        complain(frames_.back().path + "/" + key, shown(*j), "a text", j->is_number() ? fmt::format("in quotes: \"{}\"", j->dump()) : "");
         return;
     }
     value = j->get<std::string>();

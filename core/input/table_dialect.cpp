@@ -43,6 +43,9 @@ Cell TableDialect::kind(std::string_view cell, double& value) const {
 }
 
 bool TableDialect::read_row(std::string_view text, std::size_t& at, std::vector<double>& row) const {
+    if (separator == decimal) { // what belongs together stands in quotes
+        return false;
+    }
     const char* here = text.data() + at;
     const char* const end = text.data() + text.size();
     const fast_float::parse_options options(fast_float::chars_format::general, decimal);
@@ -117,8 +120,8 @@ bool TableDialect::split(std::string_view line, std::vector<std::string_view>& c
 
 TableDialect dialect_of(const std::vector<std::string_view>& lines) {
     // Among equals the first.
-    static constexpr std::array<TableDialect, 7> known{
-        {{';', '.'}, {'\t', '.'}, {',', '.'}, {' ', '.'}, {';', ','}, {'\t', ','}, {' ', ','}}};
+    static constexpr std::array<TableDialect, 8> known{
+        {{';', '.'}, {'\t', '.'}, {',', '.'}, {' ', '.'}, {';', ','}, {'\t', ','}, {' ', ','}, {',', ','}}}; // the last one: in quotes
     std::ptrdiff_t best = std::numeric_limits<std::ptrdiff_t>::min();
     TableDialect chosen;
     for (const TableDialect& candidate : known) {

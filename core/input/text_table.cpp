@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t looked_at = 400; // lines from which dialect and columns are made out
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr const char* only_points = "; if decimals have a comma here, separate cells by semicolons or tabs";
 
 // A comment, or nothing at all; "#N/A" is a missing cell.
 bool is_comment(std::string_view line) {
@@ -58,6 +59,20 @@ std::size_t width_of(const std::vector<std::vector<std::string_view>>& rows, con
         width = lines_with[cells.size()] > (width > 0 ? lines_with[width] : 0) ? cells.size() : width;
     }
     return width;
+}
+
+// What stands in the last of the lines, where numbers are looked for in vain; lines: their numbers.
+std::string first_words(const std::vector<std::vector<std::string_view>>& rows, const std::vector<std::size_t>& lines,
+                        const TableDialect& dialect) {
+    double value = 0.0;
+    for (std::size_t k = rows.size(); k-- > 0;) {
+        for (const auto cell : rows[k]) {
+            if (dialect.kind(cell, value) == Cell::text) {
+                return fmt::format("; in line {}, \"{}\" is no number ({})", lines[k], cell.substr(0, 40), dialect.text());
+            }
+        }
+    }
+    return "";
 }
 
 // Which columns hold numbers, or nothing, in at least half of the lines of that width.
@@ -112,7 +127,7 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
     }
     const std::size_t width = width_of(rows, dialect_);
     if (width == 0) {
-        throw std::runtime_error(file_ + ": no rows of numbers");
+        throw std::runtime_error(file_ + ": no rows of numbers" + first_words(rows, first, dialect_));
     }
     numeric_ = columns_of_numbers(rows, width, dialect_);
 
@@ -153,12 +168,13 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
     columns_.resize(width);
     name_columns(above);
     if (above.empty() && begin > 0) {
-        passed_over_ = fmt::format("line {} was not taken for headings: it has {} cells where the rows have {}", first[begin - 1],
-                                   rows[begin - 1].size(), width);
+        const bool commas = dialect_.separator == ',' && rows[begin - 1].size() < width;
+        passed_over_ = fmt::format("line {} was not taken for headings: it has {} cells where the rows have {}{}", first[begin - 1],
+                                   rows[begin - 1].size(), width, commas ? only_points : "");
     }
     const std::size_t start = names_end > 0 ? names_end : begin;
     if (start >= first.size()) {
-        throw std::runtime_error(file_ + ": no rows of numbers");
+        throw std::runtime_error(file_ + ": no rows of numbers" + first_words(rows, first, dialect_));
     }
 
     take_rows(static_cast<std::size_t>(sample[start].data() - text_.data()), first[start]);
@@ -197,8 +213,7 @@ void TextTable::take_rows(std::size_t at, std::size_t number) {
             }
             if (cells.size() != width) {
                 const bool commas = dialect_.separator == ',' && cells.size() > width;
-                fail(number, fmt::format("{} cells where the other rows have {}{}", cells.size(), width,
-                                         commas ? "; if decimals have a comma here, separate cells by semicolons or tabs" : ""));
+                fail(number, fmt::format("{} cells where the other rows have {}{}", cells.size(), width, commas ? only_points : ""));
             }
             take_row(cells);
         }

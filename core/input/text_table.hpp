@@ -31,6 +31,8 @@ class TextTable {
     [[nodiscard]] const std::vector<TextColumn>& columns() const { return columns_; }
     [[nodiscard]] std::size_t rows() const { return line_.size(); }
     [[nodiscard]] bool has_headings() const { return headings_; }
+    /// Why what stands above the rows does not name the columns; empty: nothing does, or it names them.
+    [[nodiscard]] const std::string& passed_over() const { return passed_over_; }
     /// Line of the file, from 1, in which a row stands.
     [[nodiscard]] std::size_t line(std::size_t row) const { return line_[row]; }
     /// What is written in a cell; its line is looked at again.
@@ -59,7 +61,7 @@ class TextTable {
     std::string text_;
     TableDialect dialect_;
     bool headings_ = false;
-    std::string passed_over_; // why what stands above the rows does not name the columns
+    std::string passed_over_;
     std::vector<TextColumn> columns_;
     std::vector<bool> numeric_;
     std::vector<std::vector<double>> values_; // of each column; NaN where a cell is missing or text

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/input/words.hpp"
 
@@ -21,8 +23,15 @@ const std::vector<Named>& table(Unit unit) {
     static const std::vector<Named> none{{"", 1.0}, {"%", 1e-2}};
     static const std::vector<Named> length{{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}, {"um", 1e-6}};
     static const std::vector<Named> area{{"m2", 1.0}, {"cm2", 1e-4}, {"mm2", 1e-6}};
-    static const std::vector<Named> pressure{{"Pa", 1.0},  {"kPa", 1e3},   {"MPa", 1e6},  {"GPa", 1e9},
-                                             {"bar", 1e5}, {"N/mm2", 1e6}, {"kN/m2", 1e3}};
+    static const std::vector<Named> pressure{{"Pa", 1.0},
+                                             {"kPa", 1e3},
+                                             {"MPa", 1e6},
+                                             {"GPa", 1e9},
+                                             {"bar", 1e5},
+                                             {"N/mm2", 1e6},
+                                             {"kN/m2", 1e3},
+                                             {"psi", 6894.757293168},
+                                             {"ksi", 6894757.293168}};
     static const std::vector<Named> density{{"kg/m3", 1.0}, {"g/cm3", 1e3}, {"t/m3", 1e3}};
     static const std::vector<Named> velocity{{"m/s", 1.0}, {"mm/s", 1e-3}, {"um/s", 1e-6}, {"mm/min", 1e-3 / 60.0}};
     static const std::vector<Named> time{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60.0}, {"h", 3600.0}};
@@ -59,7 +68,41 @@ const std::vector<Named>& table(Unit unit) {
     return none;
 }
 
+// As units are written here: without the marks of powers, micro as u.
+std::string plain_unit(std::string_view name) {
+    std::string out(name);
+    for (const auto& [from, to] : {std::pair{"²", "2"}, {"³", "3"}, {"^", ""}, {"µ", "u"}, {"μ", "u"}}) {
+        for (auto at = out.find(from); at != std::string::npos; at = out.find(from)) {
+            out.replace(at, std::string_view(from).size(), to);
+        }
+    }
+    return out;
+}
+
+// What may be meant by a unit that is none.
+std::string meant(std::string_view number, std::string_view name, const std::vector<Named>& units) {
+    if (name.size() > 1 && name.front() == ',' && std::isdigit(static_cast<unsigned char>(name[1])) != 0) {
+        return fmt::format("; decimals have a point: \"{}.{}\"", number, name.substr(1));
+    }
+    for (const auto& n : units) {
+        if (!name.empty() && lower_case(name) == lower_case(n.text)) {
+            return fmt::format("; did you mean \"{} {}\"?", number, n.text);
+        }
+    }
+    return "";
+}
+
 } // namespace
+
+std::optional<Unit> dimension_of(const std::string& si) {
+    for (const Unit u : {Unit::none, Unit::length, Unit::area, Unit::pressure, Unit::density, Unit::velocity, Unit::time,
+                         Unit::energy_per_area, Unit::acceleration, Unit::angle, Unit::angular_velocity, Unit::force, Unit::rate}) {
+        if (si_unit(u) == si) {
+            return u;
+        }
+    }
+    return std::nullopt;
+}
 
 std::string si_unit(Unit unit) { return table(unit).front().text; }
 
@@ -81,14 +124,17 @@ Quantity parse_quantity(const std::string& text, Unit unit) {
     if (error != std::errc() || !std::isfinite(value)) {
         return {0.0, "no finite number in it"};
     }
-    const std::string_view name = trimmed({end, t.data() + t.size()});
+    const std::string name = plain_unit(trimmed({end, t.data() + t.size()}));
     for (const auto& n : table(unit)) {
         if (name == n.text || (name.empty() && n.factor == 1.0)) {
             return {value * n.factor, ""};
         }
     }
     const auto units = accepted_units(unit);
-    return {0.0, fmt::format("the unit \"{}\" is none of {}", name, fmt::join(units, ", "))};
+    if (unit == Unit::any) {
+        return {0.0, fmt::format("the unit \"{}\" is unknown{}", name, meant({t.data(), end}, name, table(unit)))};
+    }
+    return {0.0, fmt::format("the unit \"{}\" is none of {}{}", name, fmt::join(units, ", "), meant({t.data(), end}, name, table(unit)))};
 }
 
 std::string format_quantity(double value, Unit unit) {

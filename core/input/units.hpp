@@ -15,6 +15,9 @@ std::string si_unit(Unit unit);
 /// Unit texts accepted for a dimension, SI first.
 std::vector<std::string> accepted_units(Unit unit);
 
+/// The dimension that an SI unit is the unit of; the first where several have it, none where it is no unit.
+std::optional<Unit> dimension_of(const std::string& si);
+
 /// Result of reading a text such as "28 GPa".
 struct Quantity {
     double value = 0.0;  ///< SI

@@ -114,6 +114,23 @@ class Calibration {
         return out;
     }
 
+    // What the last trial did not give, and how its tests ended.
+    [[nodiscard]] std::string undetermined() const {
+        const TrialResult& last = out_.trials.back().result;
+        std::vector<std::string> missing;
+        for (const auto& target : plan_.input.targets) {
+            if (!target.is_curve() && !last.mean(target.test, target.result)) {
+                missing.push_back(fmt::format("{} of {}", target.result, target.test));
+            }
+        }
+        std::vector<std::string> ends;
+        for (const auto& job : last.jobs) {
+            ends.push_back(fmt::format("{}: {}", job.name, job.reason));
+        }
+        return fmt::format("{} not determined; the tests ended so: {}. A stop rule may end a test before its peak",
+                           missing.empty() ? "a curve was" : fmt::format("{} was", fmt::join(missing, ", ")), fmt::join(ends, "; "));
+    }
+
     // Index, among all trials, of the best on small specimens.
     [[nodiscard]] std::size_t best_small() const {
         const auto all = samples();
@@ -121,9 +138,8 @@ class Calibration {
         if (best == all.size()) {
             const auto& jobs = out_.trials.back().result.jobs;
             const auto failed = std::find_if(jobs.begin(), jobs.end(), [](const JobResult& j) { return j.status != "complete"; });
-            throw std::runtime_error(
-                fmt::format("none of {} trials gave every target; the last: {}", all.size(),
-                            failed != jobs.end() ? failed->name + ": " + failed->reason : "a result was not determined"));
+            throw std::runtime_error(fmt::format("none of {} trials gave every target; the last: {}", all.size(),
+                                                 failed != jobs.end() ? failed->name + ": " + failed->reason : undetermined()));
         }
         std::size_t small = 0;
         for (std::size_t k = 0; k < out_.trials.size(); ++k) {

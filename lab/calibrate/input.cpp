@@ -126,7 +126,10 @@ void check_target(const TargetInput& t, const std::string& at, const std::vector
         complain("", t.is_curve() ? "a result and a curve" : "neither result nor curve", "one of \"result\" with \"value\", and \"curve\"");
     }
     if (!t.is_curve() && t.value == 0.0) {
-        complain("/value", "0", "a value other than 0, to which the tolerance is relative");
+        complain("/value", "nothing, or 0", "a value other than 0, to which the tolerance is relative");
+    }
+    if (t.tolerance > 1.0) {
+        complain("/tolerance", fmt::format("{:.6g}", t.tolerance), "a share of at most 1", "5 % is 0.05, or \"5 %\"");
     }
     if (t.is_curve() && t.y.empty()) {
         complain("/y", "nothing", "what the curve shows: \"total_stress\", \"deviatoric_stress\" or a strain",
@@ -135,17 +138,6 @@ void check_target(const TargetInput& t, const std::string& at, const std::vector
     if (t.is_curve() && t.y == t.x) {
         complain("/y", "\"" + t.y + "\" over itself", "another quantity than x");
     }
-}
-
-// The unit that a result's SI unit is one of.
-std::optional<Unit> dimension_of(const std::string& si) {
-    for (const Unit u : {Unit::none, Unit::length, Unit::area, Unit::pressure, Unit::density, Unit::velocity, Unit::time,
-                         Unit::energy_per_area, Unit::angle, Unit::force, Unit::rate}) {
-        if (input::si_unit(u) == si) {
-            return u;
-        }
-    }
-    return std::nullopt;
 }
 
 // Whether a result can be negative in the sense of its test.
@@ -162,8 +154,10 @@ bool may_be_negative(const std::string& result) {
 void check_result(const TargetInput& t, const Json& written, const std::string& at, const std::vector<TrialTest>& tests,
                   const std::string& file, input::Problems& problems) {
     const auto test = std::find_if(tests.begin(), tests.end(), [&](const TrialTest& one) { return one.name == t.test; });
-    const bool said = std::any_of(problems.begin(), problems.end(), [&](const input::Problem& p) { return p.path.starts_with(at + "/"); });
-    if (t.result.empty() || test == tests.end() || said) {
+    const auto said = [&](const char* key) {
+        return std::any_of(problems.begin(), problems.end(), [&](const input::Problem& p) { return p.path == at + key; });
+    };
+    if (t.result.empty() || test == tests.end() || said("/result")) {
         return;
     }
     std::vector<report::Scalar> results;
@@ -184,7 +178,10 @@ void check_result(const TargetInput& t, const Json& written, const std::string& 
                             near.empty() ? "" : "did you mean \"" + near + "\"?"});
         return;
     }
-    const auto dimension = dimension_of(result->unit);
+    if (said("/value")) {
+        return;
+    }
+    const auto dimension = input::dimension_of(result->unit);
     const std::string value = input::text_at(written, "value");
     if (!value.empty() && dimension) {
         if (const auto quantity = input::parse_quantity(value, *dimension); !quantity.problem.empty()) {
@@ -198,6 +195,27 @@ void check_result(const TargetInput& t, const Json& written, const std::string& 
     if (t.value < 0.0 && !may_be_negative(t.result)) {
         problems.push_back({file, at + "/value", value.empty() ? fmt::format("{:.6g}", t.value) : "\"" + value + "\"",
                             fmt::format("a positive {}: results are in the sense of the test", t.result), ""});
+        return;
+    }
+    if (t.result.find("slope") != std::string::npos && t.value > 0.0) {
+        problems.push_back(
+            {file, at + "/value", fmt::format("{:.6g} Pa", t.value), fmt::format("a negative {}: stress falls", t.result), ""});
+        return;
+    }
+    const auto range = plausible_result(*result, input::text_at(test->deck, "test"));
+    const double size = std::fabs(t.value);
+    if (range && (size < range->low || size > range->high)) {
+        const std::string si = result->unit.empty() ? "" : " " + result->unit;
+        std::string hint;
+        for (const double f : range->factors) {
+            if (hint.empty() && size * f >= range->low && size * f <= range->high) {
+                hint =
+                    fmt::format("did you mean {}?", result->unit.empty() ? fmt::format("{:.6g}", f * t.value)
+                                                                         : "\"" + input::format_quantity(f * t.value, *dimension) + "\"");
+            }
+        }
+        problems.push_back({file, at + "/value", fmt::format("{:.6g}{}", t.value, si),
+                            fmt::format("a {} of {:.3g} to {:.3g}{}, as materials have it", t.result, range->low, range->high, si), hint});
     }
 }
 
@@ -234,6 +252,7 @@ CalibrationPlan read_calibration(const std::string& file) {
     plan.tests =
         take_tests(json, plan.source, problems, {true, begun.is_object(), begun.is_object() ? begun.value("decks", Json()) : Json()});
     input::read(json, plan.input, file, "", problems);
+    check_units(json, plan.input.parameters, plan.tests, file, problems);
     refuse_levels(json, "a calibration looks anywhere between the bounds", file, problems);
     auto& in = plan.input;
     std::vector<Json> decks;

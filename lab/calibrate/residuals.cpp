@@ -99,18 +99,21 @@ std::vector<Target> make_targets(const CalibrationPlan& plan) {
     for (std::size_t k = 0; k < plan.input.targets.size(); ++k) {
         Target t{plan.input.targets[k], plan.input.targets[k].weight, {}};
         std::string kind;
+        double young = 0.0;
         double last = std::numeric_limits<double>::infinity(); // a strain that the user has the test end at
         for (const auto& test : plan.tests) {
             if (test.name == t.input.test) {
                 t.weight *= test.weight;
                 kind = input::text_at(test.deck, "test");
                 const input::Json::json_pointer stop("/loading/stop/axial_strain");
+                const input::Json modulus = test.deck.value(input::Json::json_pointer("/material/young_modulus"), input::Json());
+                young = modulus.is_number() ? modulus.get<double>() : 0.0;
                 last = t.input.x == "axial_strain" && test.written.contains(stop) ? test.deck.value(stop, last) : last;
             }
         }
         try {
             if (t.input.is_curve()) {
-                t.file = load_target_curve(t.input, kind, last);
+                t.file = load_target_curve(t.input, kind, last, young);
             }
         } catch (const std::runtime_error& e) {
             problems.push_back({plan.source, fmt::format("/targets/{}/curve", k), e.what(), "a table that holds the measured curve", ""});

@@ -58,8 +58,20 @@ std::vector<double> column(const input::TextTable& table, std::size_t at, const 
 
 SampledCurve from_table(const TargetInput& t, TargetCurve& out) {
     const input::TextTable table(t.curve);
-    const std::size_t x = table.find(t.x_column);
-    const std::size_t y = table.find(t.y_column);
+    std::vector<std::string> wrong;
+    const auto find = [&](const std::string& column) {
+        try {
+            return table.find(column);
+        } catch (const std::runtime_error& e) {
+            wrong.emplace_back(e.what());
+            return std::size_t{0};
+        }
+    };
+    const std::size_t x = find(t.x_column);
+    const std::size_t y = find(t.y_column);
+    if (!wrong.empty()) {
+        throw std::runtime_error(fmt::format("{}", fmt::join(wrong, "; ")));
+    }
     SampledCurve all{column(table, x, t.x, t.x_factor, 'x', out), column(table, y, t.y, t.y_factor, 'y', out)};
     std::vector<std::string> unused;
     for (std::size_t c = 0; c < table.columns().size(); ++c) {
@@ -101,12 +113,6 @@ SampledCurve from_experiment(const TargetInput& t, TargetCurve& out) {
 double largest(const std::vector<double>& v) {
     return *std::max_element(v.begin(), v.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
 }
-
-// What a quantity of a solid or of ballast can be at its largest; beyond it, a unit is likely to be missing.
-struct Plausible {
-    double low, high;
-    std::vector<double> factors; // that make it so, the likeliest first
-};
 
 Plausible plausible(const std::string& quantity, const std::string& test) {
     if (is_stress(quantity)) {
@@ -151,15 +157,25 @@ void check_quantity(const std::vector<double>& v, const std::string& quantity, c
     }
 }
 
-// Stress over strain: its slope is a modulus.
-void check_modulus(const SampledCurve& c, const TargetInput& t, const std::string& test) {
+constexpr double stiffest = 300e9; // Pa
+
+double softest(const std::string& test) { return test == "granular-triaxial" ? 1e5 : 1e6; }
+
+// Stress over strain: its slope is a modulus. young: the card's, 0: unknown.
+void check_modulus(const SampledCurve& c, const TargetInput& t, const std::string& test, double young, TargetCurve& out) {
     if (!is_stress(t.y) || (t.x != "axial_strain" && t.x != "gauge_strain")) {
         return;
     }
     const auto slope = slope_between(c.x, c.y, 0.1, 1.0 / 3.0);
-    const double low = test == "granular-triaxial" ? 1e5 : 1e6;
-    const double high = 300e9;
+    const double low = softest(test);
+    const double high = stiffest;
     if (!slope || (*slope >= low && *slope <= high)) {
+        constexpr double alike = 30.0; // a card may be far from the material yet; thousands are units
+        if (slope && young > 0.0 && (*slope > alike * young || *slope < young / alike)) {
+            out.warnings.push_back(fmt::format("a modulus of {:.3g} GPa between 10 % and 33 % of the peak, {:.2g} times the {:.3g} GPa of "
+                                               "the deck's card: are the units right (kPa or Pa, per cent or fraction)?",
+                                               1e-9 * *slope, *slope / young, 1e-9 * young));
+        }
         return;
     }
     const std::string what =
@@ -236,7 +252,21 @@ void take_compared(const TargetInput& t, double last, TargetCurve& out) {
 
 } // namespace
 
-TargetCurve load_target_curve(const TargetInput& t, const std::string& test, double last) {
+std::optional<Plausible> plausible_result(const report::Scalar& result, const std::string& test) {
+    const auto named = [&](const char* part) { return result.name.find(part) != std::string::npos; };
+    if (result.unit == "Pa" && !named("slope")) {
+        return named("modulus") ? Plausible{softest(test), stiffest, {1e9, 1e6, 1e3, 1e-3}} : plausible("total_stress", test);
+    }
+    if (result.unit.empty() && (named("_strain") || named("strain_"))) {
+        return plausible("axial_strain", test);
+    }
+    if (result.name == "poisson_ratio") {
+        return Plausible{0.0, 0.5, {1e-2}};
+    }
+    return std::nullopt;
+}
+
+TargetCurve load_target_curve(const TargetInput& t, const std::string& test, double last, double young) {
     TargetCurve out;
     const bool experiment = is_measured_curve(t.curve);
     const SampledCurve all = experiment ? from_experiment(t, out) : from_table(t, out);
@@ -267,9 +297,16 @@ TargetCurve load_target_curve(const TargetInput& t, const std::string& test, dou
     if (std::all_of(out.measured.y.begin(), out.measured.y.end(), [](double v) { return v == 0.0; })) {
         throw std::runtime_error("all values are 0");
     }
+    if (t.y.empty()) {
+        return out; // said where it is missing
+    }
+    if (is_stress(t.y) && largest(out.measured.x) > plausible(t.x, test).high && largest(out.measured.y) < plausible(t.x, test).high) {
+        throw std::runtime_error(fmt::format("{} goes to {:.4g} and {} to {:.4g} Pa: is x_column the stress and y_column the strain?",
+                                             plain(t.x), largest(out.measured.x), plain(t.y), largest(out.measured.y)));
+    }
     check_quantity(out.measured.x, t.x, test, 'x', t.x_factor);
     check_quantity(out.measured.y, t.y, test, 'y', t.y_factor);
-    check_modulus(out.measured, t, test);
+    check_modulus(out.measured, t, test, young, out);
     take_off_toe(t, out);
     take_compared(t, last, out);
     return out;

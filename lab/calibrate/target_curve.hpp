@@ -1,11 +1,13 @@
 // A measured curve as a target: what a laboratory's file holds, made to what a test gives.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lab/calibrate/input.hpp"
 #include "lab/series/mean_curve.hpp"
+#include "reports/record/record.hpp"
 
 namespace proveta {
 
@@ -18,9 +20,19 @@ struct TargetCurve {
     std::vector<std::string> warnings; ///< what is not compared, or was left out
 };
 
-/// Loads a target's curve. test: the deck's test, "ucs". last: x at which the test ends, infinite where nothing says it. Throws
+/// What a quantity of a solid or of ballast can be, without its sign; beyond it, a unit is likely to be missing.
+struct Plausible {
+    double low, high;
+    std::vector<double> factors; ///< that make it so, the likeliest first
+};
+
+/// Of a result of a test ("ucs"): strains, Poisson's ratio, moduli and other stresses; none of others.
+std::optional<Plausible> plausible_result(const report::Scalar& result, const std::string& test);
+
+/// Loads a target's curve. test: the deck's test, "ucs". last: x at which the test ends, infinite where nothing says it. young: E of the
+/// deck's card in Pa, which a curve of another unit's size is warned of against; 0: unknown. Throws
 /// std::runtime_error naming the file and what is wrong: columns, units that contradict the factors, too few points, and values that cannot
 /// be the material's, with the factor that would make them so.
-TargetCurve load_target_curve(const TargetInput& target, const std::string& test, double last);
+TargetCurve load_target_curve(const TargetInput& target, const std::string& test, double last, double young = 0.0);
 
 } // namespace proveta

@@ -11,8 +11,7 @@ namespace proveta {
 namespace {
 
 constexpr double aim = 0.2 * most_grown_overlap;
-constexpr double densest = 0.74; // share of a box that is worth a try, whatever the mixture
-constexpr double fewer = 0.95;   // of the particles, at every further try
+constexpr double fewer = 0.95; // of the particles, at every further try
 
 // As many as `count` of the radii, evenly from the whole list.
 std::vector<std::size_t> some_of(std::size_t all, std::size_t count) {
@@ -42,7 +41,7 @@ Grown grow_in(const Eigen::AlignedBox3d& box, const std::vector<double>& radii, 
     const Vec3 shift(box.center().x(), box.center().y(), box.min().z());
     constexpr double tolerance = 0.005; // of the net forces, where spheres are jammed
     const auto all = static_cast<double>(radii.size());
-    for (double count = all * std::min(1.0, densest / filled_share(box, radii)); count >= 1.0; count *= fewer) {
+    for (double count = all * std::min(1.0, densest_share / filled_share(box, radii)); count >= 1.0; count *= fewer) {
         const auto chosen = some_of(radii.size(), static_cast<std::size_t>(count));
         std::vector<double> some;
         for (const auto k : chosen) {

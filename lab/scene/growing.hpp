@@ -12,6 +12,10 @@ namespace proveta {
 /// Largest overlap, over the smaller radius, with which grown particles may start. Most start with a fifth of it.
 constexpr double most_grown_overlap = 0.05;
 
+/// Share of a box that equal spheres fill at most, and that they fill at random.
+constexpr double densest_share = 0.74;
+constexpr double usual_share = 0.6;
+
 /// Spheres in a box.
 struct Grown {
     std::vector<Vec3> centre;        ///< m

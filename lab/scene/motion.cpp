@@ -70,7 +70,11 @@ class Expression {
         parser_.DefineConst("pi", std::numbers::pi);
         parser_.DefineVar("t", &t_);
         parser_.SetExpr(text_);
-        parser_.Eval(); // complains of what it cannot read now, not later
+        int values = 0;
+        parser_.Eval(values); // complains of what it cannot read now, not later
+        if (values != 1) {
+            throw mu::ParserError(fmt::format("{} values, apart by commas, where one is expected; decimals have a point", values));
+        }
     }
     Expression(const Expression&) = delete;
     Expression& operator=(const Expression&) = delete;
@@ -120,9 +124,15 @@ Places read_places(const std::string& file) {
     };
     Places out;
     out.t = column("t", Unit::time);
-    if (out.t.size() < 2 || !std::is_sorted(out.t.begin(), out.t.end(), std::less_equal<>())) {
+    if (out.t.size() < 2) {
         throw std::runtime_error(
             fmt::format("{}: needs a column \"t\" of two or more ascending times in s; it has {}", file, table.description()));
+    }
+    for (std::size_t k = 1; k < out.t.size(); ++k) {
+        if (!(out.t[k] > out.t[k - 1])) {
+            throw std::runtime_error(fmt::format("{}: line {}: the time {:.6g} s comes after {:.6g} s; times have to ascend", file,
+                                                 table.line(k), out.t[k], out.t[k - 1]));
+        }
     }
     for (int c = 0; c < 6; ++c) {
         out.value[c] = column(names[c], c < 3 ? Unit::length : Unit::angular_velocity);

@@ -22,8 +22,8 @@ struct NamedMaterial {
 struct SurfaceInput {
     std::string name;
     std::string shape = "plane";
-    std::vector<double> size{1.0, 1.0, 1.0}; ///< of a plane (two count) or a box, m
-    double radius = 0.0;                     ///< m
+    std::vector<double> size{}; ///< of a plane (two numbers) or a box (three), m; it has no default
+    double radius = 0.0;        ///< m
     input::NumberOrWord top_radius{0.0, "radius"};
     double inner_radius = 0.0;
     double height = 0.0;

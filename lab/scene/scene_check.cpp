@@ -116,7 +116,8 @@ class Check {
         if (s.shape == "plane" || s.shape == "box") {
             const std::size_t sizes = s.shape == "box" ? 3 : 2;
             if (s.size.size() != sizes) {
-                say(at + "/size", fmt::format("{} numbers", s.size.size()), fmt::format("{} for a {}", sizes, s.shape));
+                say(at + "/size", s.size.empty() ? "no size" : fmt::format("{} numbers", s.size.size()),
+                    fmt::format("{} lengths for a {}", sizes, s.shape));
             }
         } else if (s.shape == "file") {
             file(s.file, at);

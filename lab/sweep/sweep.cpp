@@ -166,6 +166,7 @@ Sweep read_sweep(const std::string& file) {
     sweep.results = take_results(json, file, problems);
     check_results(sweep, file, problems);
     input::read(json, sweep.input, file, "", problems);
+    check_units(json, sweep.input.parameters, sweep.tests, file, problems);
     check_keys(sweep.input, file, problems);
     const std::string design = "the design is " + sweep.input.design;
     refuse_keys(json, "", unused_keys(sweep.input.design), design, file, problems);

@@ -64,6 +64,27 @@ std::string unit_of(const std::string& path, const std::string& test) {
     return "";
 }
 
+// What a deck itself says to a number at that path, such as that its law has no such key.
+std::string why_not(const std::string& path, const std::vector<Json>& decks, const std::string& source) {
+    for (Json deck : decks) {
+        const auto pointer = pointer_of(path);
+        if (pointer.empty() || !deck.contains(pointer.parent_pointer()) || !deck[pointer.parent_pointer()].is_object()) {
+            continue;
+        }
+        deck[pointer] = 1.0;
+        try {
+            (void)read_deck(deck, source);
+        } catch (const input::InputError& error) {
+            for (const auto& problem : error.problems) {
+                if (problem.path == pointer.to_string() && problem.found != "an unknown key") {
+                    return problem.suggestion.empty() ? problem.expected : problem.suggestion;
+                }
+            }
+        }
+    }
+    return "";
+}
+
 } // namespace
 
 double Parameter::at(double u) const { return scale == "log" ? low * std::pow(high / low, u) : low + u * (high - low); }
@@ -107,6 +128,38 @@ void refuse_levels(const Json& json, const std::string& why, const std::string& 
     }
 }
 
+void check_units(const Json& json, const std::vector<Parameter>& parameters, const std::vector<TrialTest>& tests, const std::string& file,
+                 input::Problems& problems) {
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        const Parameter& p = parameters[k];
+        const auto with = std::find_if(tests.begin(), tests.end(), [&](const TrialTest& t) { return has(t.deck, p.path); });
+        if (with == tests.end() || !p.times.empty()) { // a multiple has a unit of its own, or none
+            continue;
+        }
+        const auto dimension = input::dimension_of(unit_of(p.path, input::text_at(with->deck, "test")));
+        const Json& written = json["parameters"][k];
+        const auto look = [&](const Json& value, const std::string& key) {
+            if (!value.is_string() || !dimension) {
+                return;
+            }
+            const auto text = value.get<std::string>();
+            const std::string at = fmt::format("/parameters/{}/{}", k, key);
+            const bool said = std::any_of(problems.begin(), problems.end(), [&](const input::Problem& q) { return q.path == at; });
+            if (const auto found = input::parse_quantity(text, *dimension); !found.problem.empty() && !said) {
+                const std::string si = input::si_unit(*dimension);
+                problems.push_back({file, at, "\"" + text + "\", " + found.problem,
+                                    fmt::format("a value for {}, {}", p.path, si.empty() ? "which has no unit" : "in " + si), ""});
+            }
+        };
+        look(written.value("low", Json()), "low");
+        look(written.value("high", Json()), "high");
+        const Json values = written.value("values", Json::array());
+        for (std::size_t n = 0; values.is_array() && n < values.size(); ++n) {
+            look(values[n], fmt::format("values/{}", n));
+        }
+    }
+}
+
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vector<Json>& decks, const std::string& source,
                                input::Problems& problems)
     : parameters_(std::move(parameters)) {
@@ -138,8 +191,11 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vec
             std::find_if(decks.begin(), decks.end(), [&](const Json& d) { return has(d, p.path) && may_be_number(d[pointer_of(p.path)]); });
         if (with == decks.end()) {
             const std::string best = input::nearest(p.path, known);
+            const std::string why = why_not(p.path, decks, source);
             complain("/path", "\"" + p.path + "\"", "the dotted path of a number in the decks",
-                     best.empty() ? "" : "did you mean \"" + best + "\"?");
+                     !why.empty()   ? why
+                     : best.empty() ? ""
+                                    : "did you mean \"" + best + "\"?");
         }
         if (!p.values.empty()) {
             const auto [low, high] = std::minmax_element(p.values.begin(), p.values.end());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/input/json.hpp"
+#include "lab/trials/tests.hpp"
 
 namespace proveta {
 
@@ -34,6 +35,10 @@ void refuse_keys(const input::Json& json, const std::string& path, const std::ve
                  const std::string& file, input::Problems& problems);
 /// Refuses the levels of a grid among the parameters of what is none.
 void refuse_levels(const input::Json& json, const std::string& why, const std::string& file, input::Problems& problems);
+
+/// Refuses bounds and values of parameters whose unit is not one of what they are written into. json: the file.
+void check_units(const input::Json& json, const std::vector<Parameter>& parameters, const std::vector<TrialTest>& tests,
+                 const std::string& file, input::Problems& problems);
 
 /// The parameters of a sweep or a calibration, in their order.
 class ParameterSpace {

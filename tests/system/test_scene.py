@@ -157,6 +157,15 @@ class Scenes(Case):
         for path in ("/surfaces/1/position/2: 200 m is likely", "/materials/0/material/density: 2.5 kg/m3 is likely"):
             self.assertIn(path, done.stderr)
 
+    def test_what_cannot_fit_and_decimal_commas_are_refused_at_once(self):
+        filled = dict(FALL, place="grow", count=20000)
+        plate = {"name": "plate", "shape": "plane", "motion": {"kind": "expression", "velocity_z": "0,1*t"}}
+        done = self.run_scene(scene(surfaces=[BOX, plate]), "--check", code=2)
+        self.assertIn("decimals have a point", done.stderr)
+        self.assertIn("/surfaces/1/size: found no size", done.stderr)
+        done = self.run_scene(scene(particles=[filled]), "--check", code=2)
+        self.assertIn("the densest packing fills", done.stderr)
+
     def test_a_time_without_end_is_refused(self):
         done = self.run_scene(scene(stop={"time": 1e9}), code=2)
         self.assertIn("/stop/time", done.stderr)

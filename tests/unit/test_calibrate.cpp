@@ -220,6 +220,36 @@ TEST_CASE("calibration: an experiment's file says whether its stress is total, a
     CHECK_FALSE(is_measured_curve(folder.file("o.csv", "a,b\n1,2\n")));
 }
 
+TEST_CASE("calibration: targets and bounds of another size, sign or unit than theirs are refused with what may be meant") {
+    const TemporaryFolder folder;
+    const auto problem = [&](const std::string& parameter, const std::string& target) {
+        try {
+            (void)make_targets(read_calibration(folder.file("c.json", calibration(parameter, R"({"test": "ucs", )" + target + "}"))));
+        } catch (const input::InputError& error) {
+            REQUIRE(error.problems.size() == 1);
+            return error.problems.front();
+        }
+        return input::Problem{};
+    };
+    const auto target = [&](const std::string& text) { return problem(tau, R"("result": )" + text); };
+    CHECK(target(R"("strength", "value": 32.8)").suggestion == "did you mean \"32.8 MPa\"?");
+    CHECK(target(R"("young_modulus", "value": 28000)").suggestion == "did you mean \"28 GPa\"?");
+    CHECK(target(R"("poisson_ratio", "value": 20)").suggestion == "did you mean 0.2?");
+    CHECK(target(R"("strain_at_peak", "value": 0.2)").path == "/targets/0/value");
+    CHECK(target(R"("post_peak_slope", "value": "9 GPa")").expected.find("negative") != std::string::npos);
+    CHECK(target(R"("strength", "value": "30 MPa", "tolerance": 5)").path == "/targets/0/tolerance");
+    CHECK(problem(R"({"path": "material.mu_s", "low": "10 deg", "high": 0.9})", R"("result": "strength", "value": "30 MPa")").path ==
+          "/parameters/0/low");
+
+    folder.write("swapped.csv", "0,0\n15e6,0.0005\n30e6,0.001\n");
+    const auto swapped = problem(tau, R"("curve": "swapped.csv", "y": "total_stress")");
+    CHECK(swapped.found.find("is x_column the stress") != std::string::npos);
+    folder.write("kilo.csv",
+                 "0,0\n0.0001,2.8e3\n0.0002,5.6e3\n0.0003,8.4e3\n0.001,28e3\n0.0011,29e3\n"); // kPa: 28 MPa where the card has 28 GPa
+    const auto file = folder.file("c.json", calibration(tau, R"({"test": "ucs", "curve": "kilo.csv", "y": "total_stress"})"));
+    CHECK(make_targets(read_calibration(file)).at(0).file.warnings.at(0).find("are the units right") != std::string::npos);
+}
+
 TEST_CASE("calibration: a test ends where its targets end") {
     const TemporaryFolder folder;
     folder.write("curve.csv", "0,0\n0.001,20\n0.002,30\n");
@@ -231,7 +261,7 @@ TEST_CASE("calibration: a test ends where its targets end") {
         shorten(test, make_targets(plan));
         return test.deck["loading"]["stop"];
     };
-    const std::string peak = R"({"test": "t", "result": "strength", "value": 1})";
+    const std::string peak = R"({"test": "t", "result": "strength", "value": "30 MPa"})";
     const std::string curve = R"({"test": "t", "curve": "curve.csv", "y": "total_stress", "y_factor": 1e6})";
     CHECK(shortened(peak, R"({"test": "ucs", "material": {"card": "custom"}})")["post_peak_drop"] == 0.1);
     CHECK(shortened(peak,

@@ -83,6 +83,15 @@ TEST_CASE("a key that another choice has a use for says so, and which choice the
     CHECK(key->found.find("nothing looks at with \"form\": \"sphere\"") != std::string::npos);
 }
 
+TEST_CASE("sizes of another shape, regions outside and steps that nothing could be stable with are refused") {
+    CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"width": 0.15}})"), "/specimen/width"));
+    CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"shape": "prism", "diameter": 0.15}})"), "/specimen/diameter"));
+    const auto both = problems_of(R"({"test": "ucs", "regions": [{"from": [1, 1, 1], "to": [2, 2, 2], "group": 1}],
+        "numerics": {"time_step": "1 ms"}})");
+    CHECK(has(both, "/regions/0"));
+    CHECK(has(both, "/numerics/time_step"));
+}
+
 TEST_CASE("loose contacts, schemes and damping: wrong words and bounds are named") {
     const auto problems = problems_of(R"({"test": "ucs", "material": {"contact_law": "hertzian", "restitution_rule": "tsuji",
         "rolling_friction": -0.1, "contact_restitution": 0}, "numerics": {"scheme": "verlet", "damping": "none", "damping_rotation": -1}})");

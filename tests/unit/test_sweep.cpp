@@ -258,6 +258,10 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
     CHECK(path_of(R"(, "design": "morris", "levels": 5)") == "/levels");
     CHECK(path_of(R"(, "design": "morris", "points": 50000)") == "/points");
     CHECK(path_of(R"(, "design": "random")") == "/design");
+    const auto law = problems_of_sweep(folder.file("l.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
+        "parameters": [{"path": "material.tau_f", "low": 1e6, "high": 2e6}]})"));
+    REQUIRE(law.size() == 1); // said as a deck says it
+    CHECK(law.front().suggestion.find("it belongs to law") != std::string::npos);
     CHECK(path_of(R"(, "design": "sobol", "seed": 3)") == "/seed");
     CHECK(path_of(R"(, "design": "latin_hypercube", "levels": 4)") == "/levels");
     const auto beyond =

@@ -23,6 +23,15 @@ TEST_CASE("wrong quantities are problems, never numbers") {
     }
 }
 
+TEST_CASE("what may be meant by a unit is said") {
+    CHECK(parse_quantity("30,5 MPa", Unit::pressure).problem.find("decimals have a point: \"30.5 MPa\"") != std::string::npos);
+    CHECK(parse_quantity("30 mpa", Unit::pressure).problem.find("did you mean \"30 MPa\"?") != std::string::npos);
+    CHECK(parse_quantity("30 N/mm²", Unit::pressure).value == Approx(30e6));
+    CHECK(parse_quantity("30 N/mm^2", Unit::pressure).value == Approx(30e6));
+    CHECK(parse_quantity("5 µm", Unit::length).value == Approx(5e-6));
+    CHECK(parse_quantity("4000 psi", Unit::pressure).value == Approx(27.579e6).epsilon(1e-4));
+}
+
 TEST_CASE("quantities are shown in handy units and read back") {
     CHECK(format_quantity(28e9, Unit::pressure) == "28 GPa");
     CHECK(format_quantity(0.15, Unit::length) == "15 cm");
