@@ -52,6 +52,12 @@ std::string read_text(const std::string& file, std::uintmax_t most) {
             throw too_long(file, most);
         }
     }
+    if (text.starts_with("\x1f\x8b")) {
+        throw std::runtime_error(file + ": compressed by gzip; unpack it first");
+    }
+    if (text.starts_with("PK\x03\x04")) {
+        throw std::runtime_error(file + ": a zip archive, such as a spreadsheet; unpack it, or save the table as CSV");
+    }
     return text;
 }
 

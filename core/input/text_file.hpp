@@ -8,8 +8,8 @@ namespace proveta::input {
 
 constexpr std::uintmax_t longest_table = std::uintmax_t{64} << 20; ///< of measurements, bytes: some million rows
 
-/// The whole of a file or a pipe. Throws std::runtime_error, naming it, when it cannot be read, is a folder, or does not end within `most`
-/// bytes, which is all that is read of it then.
+/// The whole of a file or a pipe. Throws std::runtime_error, naming it, when it cannot be read, is a folder, is compressed, or does not end
+/// within `most` bytes, which is all that is read of it then.
 std::string read_text(const std::string& file, std::uintmax_t most);
 
 /// Throws std::runtime_error, naming it, for a folder and for a file of more than `most` bytes, of which nothing is read.

@@ -127,7 +127,8 @@ class Granular(Case):
         self.assertEqual(float(self.rows(self.folder / "membrane" / "curve.csv")[-1]["membrane_crossings"]), 0)
         moduli = [self.value("young_modulus_platens", out) for out in ("spheres", "membrane")]
         self.assertAlmostEqual(moduli[1] / moduli[0], 1.0, delta=0.1)
-        done = self.run_deck(merged(deck, loading__confinement="membrane", specimen__shape="prism"), code=2, out="prism")
+        deck["specimen"] = {"shape": "prism", "spheres": 800}
+        done = self.run_deck(merged(deck, loading__confinement="membrane"), code=2, out="prism")
         self.assertIn("/loading/confinement", done.stderr)
 
     def scene(self, **body):

@@ -116,6 +116,9 @@ TEST_CASE("text table: missing cells, text in other columns, cells that are no n
 
 TEST_CASE("text table: what cannot be told is refused") {
     const TemporaryFolder folder;
+    CHECK(holds(refusal([&] { TextTable(folder.file("t.csv", std::string("\x1f\x8b\x08\x00\x01", 5))); }), "compressed by gzip"));
+    CHECK(holds(refusal([&] { TextTable(folder.file("t.csv", "PK\x03\x04xlsx")); }), "save the table as CSV"));
+    CHECK(holds(refusal([&] { TextTable(folder.file("t.csv", "a,b\n1.0D-02,x\n")); }), "\"1.0D-02\" is no number"));
     const auto why = [&](const char* text) { return refusal([&] { TextTable(folder.file("t.csv", text)); }); };
     CHECK(holds(why("a,b\n1,2\n3,4\n5,6,7\n"), "line 4: 3 cells where the other rows have 2"));
     CHECK(holds(why("a,b\n1,2\n3,4\nend of test\n"), "line 4: 1 cells"));

@@ -102,7 +102,7 @@ TEST_CASE("laguerre: spheres in one place, outside or swallowed are left out") {
 }
 
 TEST_CASE("plate: what is pressed in its plane stays there, to the last bit") {
-    const Deck deck = small_deck(150, R"({"specimen": {"shape": "plate", "width": 0.05}, "loading": {"rate": 0.5}})");
+    const Deck deck = small_deck(150, R"({"specimen": {"shape": "plate", "diameter": null, "width": 0.05}, "loading": {"rate": 0.5}})");
     Bench bench = set_up(deck, make_specimen(deck.specimen));
     CHECK(bench.coordination == Approx(5.1).margin(0.05));
     CHECK(bench.statistics.porosity == Approx(0.10));
