@@ -10,8 +10,8 @@ Usage: measure.py PROVETA [TABLE ...] [--runs FOLDER] [--jobs N] [--check]
 
 A table stands in results.md between "<!-- measured: NAME -->" and "<!-- end -->". docs/measures.json says what each is made of: tests by
 their example, what is set in it and the seeds (1 unless said), and rows: what it is, "test.result" or a formula of such, unit, what is
-wanted, and the relative scatter that a mean may move by. "rows" may name a table that has the same. Of a formula there are as many values as
-its tests have seeds in common. docs/measured.json keeps every value with the program and the day that it was measured by.
+wanted, and the relative scatter that a mean may move by. "rows" may name a table that has the same. Of a formula there are as many values
+as its tests have seeds in common. docs/measured.json keeps every value with the program and the day that it was measured by.
 """
 import argparse
 import concurrent.futures

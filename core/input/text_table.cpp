@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <stdexcept>
 
 #include "core/input/column_heading.hpp"
 #include "core/input/large_pages.hpp"
 #include "core/input/suggest.hpp"
+#include "core/input/table_lines.hpp"
 #include "core/input/words.hpp"
 
 namespace proveta::input {
@@ -25,73 +25,6 @@ constexpr const char* only_points = "; if decimals have a comma here, separate c
 bool is_comment(std::string_view line) {
     const auto s = trimmed(line);
     return s.empty() || (s.front() == '#' && !s.starts_with("#N/A") && !s.starts_with("#NA")) || s.starts_with("//");
-}
-
-// "x [mm] y [mm]" in a file where blanks separate: a unit belongs to the word before it. Where that does not give as many cells as there
-// are columns, they stay as they were.
-void rejoin(std::vector<std::string_view>& cells, std::size_t width) {
-    std::vector<std::string_view> joined;
-    for (const auto cell : cells) {
-        if (!joined.empty() && (cell.starts_with('[') || cell.starts_with('('))) {
-            joined.back() = {joined.back().data(), static_cast<std::size_t>(cell.data() + cell.size() - joined.back().data())};
-        } else {
-            joined.push_back(cell);
-        }
-    }
-    if (joined.size() == width) {
-        cells = std::move(joined);
-    }
-}
-
-bool has_number(const std::vector<std::string_view>& cells, const TableDialect& dialect) {
-    double value = 0.0;
-    return std::any_of(cells.begin(), cells.end(), [&](auto cell) { return dialect.kind(cell, value) == Cell::number; });
-}
-
-// How many columns most lines with a number have, among equals the first; 0 where there is none.
-std::size_t width_of(const std::vector<std::vector<std::string_view>>& rows, const TableDialect& dialect) {
-    std::map<std::size_t, std::size_t> lines_with;
-    for (const auto& cells : rows) {
-        lines_with[cells.size()] += has_number(cells, dialect) ? 1 : 0;
-    }
-    std::size_t width = 0;
-    for (const auto& cells : rows) {
-        width = lines_with[cells.size()] > (width > 0 ? lines_with[width] : 0) ? cells.size() : width;
-    }
-    return width;
-}
-
-// What stands in the last of the lines, where numbers are looked for in vain; lines: their numbers.
-std::string first_words(const std::vector<std::vector<std::string_view>>& rows, const std::vector<std::size_t>& lines,
-                        const TableDialect& dialect) {
-    double value = 0.0;
-    for (std::size_t k = rows.size(); k-- > 0;) {
-        for (const auto cell : rows[k]) {
-            if (dialect.kind(cell, value) == Cell::text) {
-                return fmt::format("; in line {}, \"{}\" is no number ({})", lines[k], cell.substr(0, 40), dialect.text());
-            }
-        }
-    }
-    return "";
-}
-
-// Which columns hold numbers, or nothing, in at least half of the lines of that width.
-std::vector<bool> columns_of_numbers(const std::vector<std::vector<std::string_view>>& rows, std::size_t width,
-                                     const TableDialect& dialect) {
-    std::vector<std::size_t> numbers(width, 0);
-    std::size_t alike = 0;
-    double value = 0.0;
-    for (const auto& cells : rows) {
-        alike += cells.size() == width ? 1 : 0;
-        for (std::size_t c = 0; c < width && cells.size() == width; ++c) {
-            numbers[c] += dialect.kind(cells[c], value) != Cell::text ? 1 : 0;
-        }
-    }
-    std::vector<bool> out;
-    for (const auto n : numbers) {
-        out.push_back(2 * n >= alike);
-    }
-    return out;
 }
 
 } // namespace

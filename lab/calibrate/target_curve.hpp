@@ -1,13 +1,11 @@
 // A measured curve as a target: what a laboratory's file holds, made to what a test gives.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "lab/calibrate/input.hpp"
 #include "lab/series/mean_curve.hpp"
-#include "reports/record/record.hpp"
 
 namespace proveta {
 
@@ -19,15 +17,6 @@ struct TargetCurve {
     std::vector<std::string> notes;    ///< which columns were read as what
     std::vector<std::string> warnings; ///< what is not compared, or was left out
 };
-
-/// What a quantity of a solid or of ballast can be, without its sign; beyond it, a unit is likely to be missing.
-struct Plausible {
-    double low, high;
-    std::vector<double> factors; ///< that make it so, the likeliest first
-};
-
-/// Of a result of a test ("ucs"): strains, Poisson's ratio, moduli and other stresses; none of others.
-std::optional<Plausible> plausible_result(const report::Scalar& result, const std::string& test);
 
 /// Loads a target's curve. test: the deck's test, "ucs". last: x at which the test ends, infinite where nothing says it. young: E of the
 /// deck's card in Pa, which a curve of another unit's size is warned of against; 0: unknown. Throws

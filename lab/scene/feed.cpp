@@ -60,7 +60,7 @@ void Feed::grow(std::size_t number, Room& room, Population& bodies, Population& 
     }
     if (const double share = filled_share(box, radii); share > densest_share) {
         throw input::InputError({{scene_.source, fmt::format("/particles/{}/count", number), fmt::format("{}", p.count),
-                                  fmt::format("at most some {:.0f}: spheres around the particles would fill {:.2f} of the box, where the "
+                                  fmt::format("at most about {:.0f}: spheres around the particles would fill {:.2f} of the box, where the "
                                               "densest packing fills {}",
                                               usual_share / share * static_cast<double>(radii.size()), share, densest_share),
                                   "fewer or smaller particles, or a larger box"}});

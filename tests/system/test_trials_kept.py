@@ -193,7 +193,7 @@ class Others(Reliability):
             time.sleep(after)
             process.send_signal(signal.SIGINT)
             _, log = process.communicate(timeout=60)
-            self.assertEqual(process.returncode, 130, log)
+            self.assertIn(process.returncode, (130, -signal.SIGINT), log)  # the latter on a busy machine, before it has begun at all
             self.assertEqual(self.content("out", "curve.csv"), before)
             self.assertEqual(self.status(), "complete")
 

@@ -1,0 +1,134 @@
+#include "lab/calibrate/target_check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/input/suggest.hpp"
+#include "core/input/units.hpp"
+#include "lab/calibrate/plausible.hpp"
+#include "lab/results.hpp"
+
+namespace proveta {
+
+using input::Json;
+
+namespace {
+
+// Whether a result can be negative in the sense of its test.
+bool may_be_negative(const std::string& result) {
+    for (const char* part : {"slope", "toe", "volumetric", "circumferential", "lateral", "dilat", "magnitude", "angle", "completeness"}) {
+        if (result.find(part) != std::string::npos) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+void check_target(const TargetInput& t, const std::string& at, const std::vector<TrialTest>& tests, const std::string& file,
+                  input::Problems& problems) {
+    const auto complain = [&](const char* key, const std::string& found, const std::string& expected, const std::string& hint = "") {
+        const std::string path = at + key; // a value that could not be read has been complained of, and is not there
+        if (std::none_of(problems.begin(), problems.end(), [&](const input::Problem& p) { return p.path == path; })) {
+            problems.push_back({file, path, found, expected, hint});
+        }
+    };
+    std::vector<std::string> names;
+    for (const auto& test : tests) {
+        names.push_back(test.name);
+    }
+    if (std::find(names.begin(), names.end(), t.test) == names.end()) {
+        complain("/test", "\"" + t.test + "\"", fmt::format("the name of a test: {}", fmt::join(names, ", ")));
+    }
+    if (t.is_curve() == !t.result.empty()) {
+        complain("", t.is_curve() ? "a result and a curve" : "neither result nor curve", "one of \"result\" with \"value\", and \"curve\"");
+    }
+    if (!t.is_curve() && t.value == 0.0) {
+        complain("/value", "nothing, or 0", "a value other than 0, to which the tolerance is relative");
+    }
+    if (t.tolerance > 1.0) {
+        complain("/tolerance", fmt::format("{:.6g}", t.tolerance), "a share of at most 1", "5 % is 0.05, or \"5 %\"");
+    }
+    if (t.is_curve() && t.y.empty()) {
+        complain("/y", "nothing", "what the curve shows: \"total_stress\", \"deviatoric_stress\" or a strain",
+                 "total and deviatoric stress differ by the confining pressure");
+    }
+    if (t.is_curve() && t.y == t.x) {
+        complain("/y", "\"" + t.y + "\" over itself", "another quantity than x");
+    }
+}
+
+// A result that the test cannot have, or that cannot have such a value, is said before anything runs.
+void check_result(const TargetInput& t, const Json& written, const std::string& at, const std::vector<TrialTest>& tests,
+                  const std::string& file, input::Problems& problems) {
+    const auto test = std::find_if(tests.begin(), tests.end(), [&](const TrialTest& one) { return one.name == t.test; });
+    const auto said = [&](const char* key) {
+        return std::any_of(problems.begin(), problems.end(), [&](const input::Problem& p) { return p.path == at + key; });
+    };
+    if (t.result.empty() || test == tests.end() || said("/result")) {
+        return;
+    }
+    std::vector<report::Scalar> results;
+    try {
+        results = possible_results(read_deck(test->deck, file));
+    } catch (const input::InputError&) {
+        return; // said elsewhere
+    }
+    const auto result = std::find_if(results.begin(), results.end(), [&](const auto& r) { return r.name == t.result; });
+    if (result == results.end()) {
+        std::vector<std::string> names;
+        for (const auto& r : results) {
+            names.push_back(r.name);
+        }
+        const std::string near = input::nearest(t.result, names);
+        problems.push_back({file, at + "/result", "\"" + t.result + "\"",
+                            fmt::format("a result of a {} test: {}", input::text_at(test->deck, "test"), fmt::join(names, ", ")),
+                            near.empty() ? "" : "did you mean \"" + near + "\"?"});
+        return;
+    }
+    if (said("/value")) {
+        return;
+    }
+    const auto dimension = input::dimension_of(result->unit);
+    const std::string value = input::text_at(written, "value");
+    if (!value.empty() && dimension) {
+        if (const auto quantity = input::parse_quantity(value, *dimension); !quantity.problem.empty()) {
+            problems.push_back(
+                {file, at + "/value", "\"" + value + "\"",
+                 fmt::format("a {}, which is {}", t.result, result->unit.empty() ? "a number without a unit" : "in " + result->unit),
+                 quantity.problem});
+            return;
+        }
+    }
+    if (t.value < 0.0 && !may_be_negative(t.result)) {
+        problems.push_back({file, at + "/value", value.empty() ? fmt::format("{:.6g}", t.value) : "\"" + value + "\"",
+                            fmt::format("a positive {}: results are in the sense of the test", t.result), ""});
+        return;
+    }
+    if (t.result.find("slope") != std::string::npos && t.value > 0.0) {
+        problems.push_back(
+            {file, at + "/value", fmt::format("{:.6g} Pa", t.value), fmt::format("a negative {}: stress falls", t.result), ""});
+        return;
+    }
+    const auto range = plausible_result(*result, input::text_at(test->deck, "test"));
+    const double size = std::fabs(t.value);
+    if (range && (size < range->low || size > range->high)) {
+        const std::string si = result->unit.empty() ? "" : " " + result->unit;
+        std::string hint;
+        for (const double f : range->factors) {
+            if (hint.empty() && size * f >= range->low && size * f <= range->high) {
+                hint =
+                    fmt::format("did you mean {}?", result->unit.empty() ? fmt::format("{:.6g}", f * t.value)
+                                                                         : "\"" + input::format_quantity(f * t.value, *dimension) + "\"");
+            }
+        }
+        problems.push_back({file, at + "/value", fmt::format("{:.6g}{}", t.value, si),
+                            fmt::format("a {} of {:.3g} to {:.3g}{}, as materials have it", t.result, range->low, range->high, si), hint});
+    }
+}
+
+} // namespace proveta
