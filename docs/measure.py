@@ -96,7 +96,7 @@ def measure(program, name, table, runs, pool):
 
 
 def digits(value):
-    return f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}"
+    return f"{value:.4g}" if abs(value) >= 1000 else f"{value:#.3g}".rstrip(".")
 
 
 def off(wanted, mean):

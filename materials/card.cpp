@@ -141,7 +141,7 @@ void declare(input::Visitor& v, Card& c) {
     v.text("name", c.name, "name of the parameter set");
     v.text("about", c.about, "what it stands for");
     v.text("source", c.source, "where its numbers come from");
-    v.text("status", c.status, "measured, published, provisional or user");
+    v.text("status", c.status, "measured, published, calibrated, provisional or user");
     v.choice("law", c.law, law_choices(),
              "constitutive law of the bonds; with another law than the card's its parameters start from the law's defaults");
     use_law(c);
