@@ -68,9 +68,9 @@ void check_quantity(const std::vector<double>& v, const std::string& quantity, c
     }
 }
 
-constexpr double stiffest = 300e9; // Pa
+constexpr double largest_modulus = 300e9; // Pa
 
-double softest(const std::string& test) { return test == "granular-triaxial" ? 1e5 : 1e6; }
+double least_modulus(const std::string& test) { return test == "granular-triaxial" ? 1e5 : 1e6; }
 
 // Stress over strain: its slope is a modulus. young: the card's, 0: unknown.
 std::string check_modulus(const SampledCurve& c, const TargetInput& t, const std::string& test, double young) {
@@ -78,8 +78,8 @@ std::string check_modulus(const SampledCurve& c, const TargetInput& t, const std
         return "";
     }
     const auto slope = slope_between(c.x, c.y, 0.1, 1.0 / 3.0);
-    const double low = softest(test);
-    const double high = stiffest;
+    const double low = least_modulus(test);
+    const double high = largest_modulus;
     if (!slope || (*slope >= low && *slope <= high)) {
         constexpr double alike = 30.0; // a card may be far from the material yet; thousands are units
         if (slope && young > 0.0 && (*slope > alike * young || *slope < young / alike)) {
@@ -112,7 +112,7 @@ void check_swapped(const SampledCurve& c, const TargetInput& t, const std::strin
 std::optional<Plausible> plausible_result(const report::Scalar& result, const std::string& test) {
     const auto named = [&](const char* part) { return result.name.find(part) != std::string::npos; };
     if (result.unit == "Pa" && !named("slope")) {
-        return named("modulus") ? Plausible{softest(test), stiffest, {1e9, 1e6, 1e3, 1e-3}} : plausible("total_stress", test);
+        return named("modulus") ? Plausible{least_modulus(test), largest_modulus, {1e9, 1e6, 1e3, 1e-3}} : plausible("total_stress", test);
     }
     if (result.unit.empty() && (named("_strain") || named("strain_"))) {
         return plausible("axial_strain", test);
