@@ -162,6 +162,9 @@ def main():
     worse = []
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         for name in arguments.tables or tables:
+            if arguments.check and name not in kept:
+                worse.append(f"{name}: never measured by this command")
+                continue
             values = measure(program, name, tables[name], arguments.runs, pool)
             if arguments.check:
                 worse += [f"{name}: {what}" for what in moved(tables[name], kept[name]["values"], values)]
