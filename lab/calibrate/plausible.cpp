@@ -18,6 +18,11 @@ std::string plain(const std::string& quantity) {
 
 bool is_stress(const std::string& quantity) { return quantity.ends_with("stress"); }
 
+std::optional<double> Plausible::factor_for(double size) const {
+    const auto fits = std::find_if(factors.begin(), factors.end(), [&](double f) { return holds(f * size); });
+    return fits == factors.end() ? std::nullopt : std::optional(*fits);
+}
+
 namespace {
 
 // The value farthest from zero, with its sign.
@@ -55,22 +60,19 @@ void check_quantity(const std::vector<double>& v, const std::string& quantity, c
     }
     const Plausible range = plausible(quantity, test);
     const double size = std::fabs(most);
-    if (size > 0.0 && (size < range.low || size > range.high)) {
-        for (const double f : range.factors) {
-            if (size * f >= range.low && size * f <= range.high) {
-                refuse(fmt::format("{} goes to {:.4g}{}, while a {} test's lies between {:.4g} and {:.4g}", plain(quantity), most,
-                                   is_stress(quantity) ? " Pa" : "", test, range.low, range.high),
-                       key, now, f);
-            }
+    if (size > 0.0 && !range.holds(size)) {
+        const char* unit = is_stress(quantity) ? " Pa" : "";
+        if (const auto factor = range.factor_for(size)) {
+            refuse(fmt::format("{} goes to {:.4g}{}, while a {} test's lies between {:.4g} and {:.4g}", plain(quantity), most, unit, test,
+                               range.low, range.high),
+                   key, now, *factor);
         }
-        throw std::runtime_error(
-            fmt::format("{} goes to {:.4g}{}, which is none of a material", plain(quantity), most, is_stress(quantity) ? " Pa" : ""));
+        throw std::runtime_error(fmt::format("{} goes to {:.4g}{}, which is none of a material", plain(quantity), most, unit));
     }
 }
 
-constexpr double largest_modulus = 300e9; // Pa
-
-double least_modulus(const std::string& test) { return test == "granular-triaxial" ? 1e5 : 1e6; }
+// Moduli of a test's material, Pa.
+Plausible modulus(const std::string& test) { return {test == "granular-triaxial" ? 1e5 : 1e6, 300e9, {1e9, 1e6, 1e3, 1e-3}}; }
 
 // Stress over strain: its slope is a modulus. young: the card's, 0: unknown.
 std::string check_modulus(const SampledCurve& c, const TargetInput& t, const std::string& test, double young) {
@@ -78,9 +80,8 @@ std::string check_modulus(const SampledCurve& c, const TargetInput& t, const std
         return "";
     }
     const auto slope = slope_between(c.x, c.y, 0.1, 1.0 / 3.0);
-    const double low = least_modulus(test);
-    const double high = largest_modulus;
-    if (!slope || (*slope >= low && *slope <= high)) {
+    const Plausible range = modulus(test);
+    if (!slope || range.holds(*slope)) {
         constexpr double alike = 30.0; // a card may be far from the material yet; thousands are units
         if (slope && young > 0.0 && (*slope > alike * young || *slope < young / alike)) {
             return fmt::format("a modulus of {:.3g} GPa between 10 % and 33 % of the peak, {:.2g} times the {:.3g} GPa of "
@@ -89,10 +90,10 @@ std::string check_modulus(const SampledCurve& c, const TargetInput& t, const std
         }
         return "";
     }
-    const std::string what =
-        fmt::format("a modulus of {:.4g} Pa between 10 % and 33 % of the peak, while materials have {:.4g} to {:.4g}", *slope, low, high);
-    for (const double f : {1e-2, 1e-6, 1e-3}) {
-        if (*slope > 0.0 && *slope / f >= low && *slope / f <= high) {
+    const std::string what = fmt::format("a modulus of {:.4g} Pa between 10 % and 33 % of the peak, while materials have {:.4g} to {:.4g}",
+                                         *slope, range.low, range.high);
+    for (const double f : {1e-2, 1e-6, 1e-3}) { // of the strain, by which the slope is divided
+        if (range.holds(*slope / f)) {
             refuse(what, 'x', t.x_factor, f);
         }
     }
@@ -112,9 +113,9 @@ void check_swapped(const SampledCurve& c, const TargetInput& t, const std::strin
 std::optional<Plausible> plausible_result(const report::Scalar& result, const std::string& test) {
     const auto named = [&](const char* part) { return result.name.find(part) != std::string::npos; };
     if (result.unit == "Pa" && !named("slope")) {
-        return named("modulus") ? Plausible{least_modulus(test), largest_modulus, {1e9, 1e6, 1e3, 1e-3}} : plausible("total_stress", test);
+        return named("modulus") ? modulus(test) : plausible("total_stress", test);
     }
-    if (result.unit.empty() && (named("_strain") || named("strain_"))) {
+    if (result.unit.empty() && (named("_strain") || named("strain_")) && !named("ratio")) {
         return plausible("axial_strain", test);
     }
     if (result.name == "poisson_ratio") {

@@ -15,6 +15,10 @@ namespace proveta {
 struct Plausible {
     double low, high;
     std::vector<double> factors; ///< that make it so, the likeliest first
+
+    [[nodiscard]] bool holds(double size) const { return size >= low && size <= high; }
+    /// The first factor that makes a size one that can be; none does: nothing.
+    [[nodiscard]] std::optional<double> factor_for(double size) const;
 };
 
 /// Of a result of a test ("ucs"): strains, Poisson's ratio, moduli and other stresses; none of others.

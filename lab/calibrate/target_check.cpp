@@ -116,15 +116,13 @@ void check_result(const TargetInput& t, const Json& written, const std::string& 
     }
     const auto range = plausible_result(*result, input::text_at(test->deck, "test"));
     const double size = std::fabs(t.value);
-    if (range && (size < range->low || size > range->high)) {
+    if (range && !range->holds(size)) {
         const std::string si = result->unit.empty() ? "" : " " + result->unit;
         std::string hint;
-        for (const double f : range->factors) {
-            if (hint.empty() && size * f >= range->low && size * f <= range->high) {
-                hint =
-                    fmt::format("did you mean {}?", result->unit.empty() ? fmt::format("{:.6g}", f * t.value)
-                                                                         : "\"" + input::format_quantity(f * t.value, *dimension) + "\"");
-            }
+        if (const auto factor = range->factor_for(size)) {
+            const double meant = *factor * t.value;
+            hint = fmt::format("did you mean {}?", result->unit.empty() ? fmt::format("{:.6g}", meant)
+                                                                        : "\"" + input::format_quantity(meant, *dimension) + "\"");
         }
         problems.push_back({file, at + "/value", fmt::format("{:.6g}{}", t.value, si),
                             fmt::format("a {} of {:.3g} to {:.3g}{}, as materials have it", t.result, range->low, range->high, si), hint});

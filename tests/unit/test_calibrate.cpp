@@ -4,6 +4,7 @@
 #include <random>
 
 #include "lab/calibrate/calibrate_report.hpp"
+#include "lab/calibrate/plausible.hpp"
 #include "lab/calibrate/search.hpp"
 #include "lab/trials/csv.hpp"
 #include "lab/trials/decks.hpp"
@@ -236,6 +237,7 @@ TEST_CASE("calibration: targets and bounds of another size, sign or unit than th
     CHECK(target(R"("young_modulus", "value": 28000)").suggestion == "did you mean \"28 GPa\"?");
     CHECK(target(R"("poisson_ratio", "value": 20)").suggestion == "did you mean 0.2?");
     CHECK(target(R"("strain_at_peak", "value": 0.2)").path == "/targets/0/value");
+    CHECK_FALSE(plausible_result({"strain_ratio", "", {}, "", ""}, "hydrostatic")); // near 1: of strains, and none itself
     CHECK(target(R"("post_peak_slope", "value": "9 GPa")").expected.find("negative") != std::string::npos);
     CHECK(target(R"("strength", "value": "30 MPa", "tolerance": 5)").path == "/targets/0/tolerance");
     CHECK(problem(R"({"path": "material.mu_s", "low": "10 deg", "high": 0.9})", R"("result": "strength", "value": "30 MPa")").path ==

@@ -77,9 +77,9 @@ TEST_CASE("all problems of a deck are reported at once, each with its path") {
 }
 
 TEST_CASE("a key that another choice has a use for says so, and which choice there is") {
-    const auto motion = problems_of(R"({"test": "granular-triaxial", "specimen": {"particles": {"form": "sphere", "forms": 3}}})");
-    REQUIRE(has(motion, "/specimen/particles/forms"));
-    const auto key = std::find_if(motion.begin(), motion.end(), [](const auto& p) { return p.path == "/specimen/particles/forms"; });
+    const auto problems = problems_of(R"({"test": "granular-triaxial", "specimen": {"particles": {"form": "sphere", "forms": 3}}})");
+    REQUIRE(has(problems, "/specimen/particles/forms"));
+    const auto key = std::find_if(problems.begin(), problems.end(), [](const auto& p) { return p.path == "/specimen/particles/forms"; });
     CHECK(key->found.find("nothing looks at with \"form\": \"sphere\"") != std::string::npos);
 }
 
