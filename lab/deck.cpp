@@ -23,7 +23,8 @@ void declare(input::Visitor& v, MaterialRegion& r) {
     v.numbers("from", r.from, 3, Unit::length, input::any_number(), "corner of a box, x y z; the axis is z, the base z = 0");
     v.numbers("to", r.to, 3, Unit::length, input::any_number(), "opposite corner");
     v.integer("group", r.group, 0, 1000000, "cohesive group of the spheres inside; only spheres of one group are bonded");
-    v.section("material", r.material, "material of the spheres inside");
+    v.section("material", r.material,
+              "material of the spheres inside; what it does not say, nor its card, is as the deck's material has it");
 }
 
 void declare(input::Visitor& v, BondingInput& b) {
@@ -135,6 +136,26 @@ void check_reach(const Deck& deck, input::Problems& problems) {
     }
 }
 
+// The card of a region's material; without one it begins as the deck's own material.
+void preload_region(const Json& json, std::size_t k, Deck& deck, input::Problems& problems) {
+    const Json& region = json["regions"][k];
+    const std::string at = fmt::format("/regions/{}", k);
+    const bool has_material = region.is_object() && region.contains("material") && region["material"].is_object();
+    MaterialInput& material = deck.regions[k].material;
+    if (has_material && region["material"].contains("card")) {
+        preload(region["material"], material, deck.folder, deck.source, at + "/material", problems);
+        return;
+    }
+    if (region.is_object() && !region.contains("material") && !region.contains("group")) {
+        problems.push_back({deck.source, at, "a box in which nothing is different", "a \"material\" or a \"group\" of its own", ""});
+    }
+    material = deck.material;
+    if (json.contains("material") && json["material"].is_object()) {
+        input::Problems said_there;
+        input::read(json["material"], material, deck.source, "/material", said_there);
+    }
+}
+
 } // namespace
 
 Deck read_deck(const Json& given, const std::string& file) {
@@ -160,9 +181,7 @@ Deck read_deck(const Json& given, const std::string& file) {
         if (json.contains("regions") && json["regions"].is_array() && json["regions"].size() <= 10000) {
             deck.regions.resize(json["regions"].size());
             for (std::size_t k = 0; k < deck.regions.size(); ++k) {
-                const Json& region = json["regions"][k];
-                const Json material = region.is_object() && region.contains("material") ? region["material"] : Json::object();
-                preload(material, deck.regions[k].material, deck.folder, file, fmt::format("/regions/{}/material", k), problems);
+                preload_region(json, k, deck, problems);
             }
         }
     }
@@ -247,6 +266,11 @@ Json resolved(const Deck& deck) {
     if (!deck.specimen.file.empty()) {
         json["specimen"] = {
             {"file", std::filesystem::absolute(std::filesystem::path(deck.folder) / deck.specimen.file).lexically_normal().string()}};
+        const auto& regions = deck.regions;
+        if (scatters_strength(deck.material.values) ||
+            std::any_of(regions.begin(), regions.end(), [](const MaterialRegion& r) { return scatters_strength(r.material.values); })) {
+            json["specimen"]["seed"] = deck.specimen.seed; // nothing else is random in a stored specimen
+        }
     }
     return json;
 }

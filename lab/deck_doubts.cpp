@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/input/units.hpp"
 
@@ -24,13 +25,10 @@ constexpr double stiffest = 1e7;
 
 // The unit that a value lacks by the look of it; empty: none.
 std::string lacking(const DeclaredQuantity& q) {
-    if (q.value <= 0.0) {
-        return "";
-    }
     switch (q.unit) {
-    case Unit::pressure: return q.value >= low_stress ? "" : q.key == "young_modulus" ? "GPa" : "MPa";
-    case Unit::length: return q.value > long_length ? "mm" : "";
-    case Unit::density: return q.value < low_density ? "g/cm3" : "";
+    case Unit::pressure: return q.value <= 0.0 || q.value >= low_stress ? "" : q.key == "young_modulus" ? "GPa" : "MPa";
+    case Unit::length: return std::fabs(q.value) > long_length ? "mm" : "";
+    case Unit::density: return q.value > 0.0 && q.value < low_density ? "g/cm3" : "";
     default: return "";
     }
 }

@@ -26,6 +26,9 @@ extern "C" void on_interrupt(int signal) {
 void catch_interrupts() {
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
+    if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) { // as nohup leaves it
+        std::signal(SIGHUP, SIG_IGN);
+    }
 }
 
 bool interrupted() { return interrupt_count > 0; }

@@ -30,8 +30,8 @@ class Progress {
     std::chrono::steady_clock::time_point next_;
 };
 
-/// Ctrl-C and SIGTERM ask the calculation to end where its state is whole, however many of them come: terminals, schedulers and parents
-/// send several.
+/// Ctrl-C, SIGTERM and a terminal that closes (SIGHUP, unless it is ignored) ask the calculation to end where its state is whole, however
+/// many of them come: terminals, schedulers and parents send several.
 void catch_interrupts();
 bool interrupted();
 /// Number of the signal that asked for the end; SIGINT before any has.

@@ -236,6 +236,11 @@ std::vector<input::DeclaredQuantity> strengths_of(const Card& card) {
     return out;
 }
 
+bool scatters_strength(const Card& card) {
+    const auto* facet = std::get_if<Facet::Parameters>(&card.bond);
+    return facet != nullptr && facet->weibull_modulus > 0.0;
+}
+
 void check_card(const Card& c, const std::string& source, const std::string& path, input::Problems& problems) {
     constexpr double softest = 1e3; // Pa
     for (const auto& q : c.young_modulus < softest ? strengths_of(c) : std::vector<input::DeclaredQuantity>{}) {

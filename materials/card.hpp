@@ -71,6 +71,9 @@ void preload(const input::Json& json, MaterialInput& material, const std::string
 /// Stresses of the card's law above 0 as its strength_factor leaves them, Pa.
 std::vector<input::DeclaredQuantity> strengths_of(const Card& card);
 
+/// Whether the strengths of its bonds are random.
+bool scatters_strength(const Card& card);
+
 /// What a card's numbers contradict, each as a problem.
 void check_card(const Card& card, const std::string& source, const std::string& path, input::Problems& problems);
 

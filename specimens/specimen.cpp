@@ -20,26 +20,28 @@ using input::Unit;
 
 namespace {
 
-constexpr const char* of_file = "a stored specimen (.h5) to take instead of making one; the other keys are then not used";
-constexpr const char* of_seed = "number that the specimen's randomness starts from";
+constexpr const char* of_file = "a stored specimen (.h5) to take instead of making one; of the other keys only the seed goes with it";
+constexpr const char* of_seed = "number that the specimen's randomness starts from, and that of strengths where a card scatters them";
 
 // A cylinder full of loose particles.
 void declare_granular(input::Visitor& v, SpecimenRecipe& r) {
-    v.text("file", r.file, of_file);
     v.number("diameter", r.diameter, Unit::length, between(1e-4, 100), "diameter of the cylinder");
     v.number("height", r.height, Unit::length, between(1e-4, 100), "height to fill; the specimen's is what the particles come to, near it");
     v.section("particles", r.particles, "the particles and how they are filled in");
-    v.integer("seed", r.seed, 0, INT64_MAX, of_seed);
 }
 
 } // namespace
 
 void declare(input::Visitor& v, SpecimenRecipe& r) {
+    v.text("file", r.file, of_file);
+    v.integer("seed", r.seed, 0, INT64_MAX, of_seed);
+    if (!r.file.empty() && !v.wants_all()) {
+        return; // all else is settled
+    }
     if (r.granular()) {
         declare_granular(v, r);
         return;
     }
-    v.text("file", r.file, of_file);
     v.choice("shape", r.shape,
              {{"cylinder", "diameter and height"},
               {"disc", "a short cylinder: diameter and height"},
@@ -69,7 +71,6 @@ void declare(input::Visitor& v, SpecimenRecipe& r) {
            "number of spheres");
     v.number("relaxation", r.relaxation, Unit::none, between(1e-4, 0.5),
              "net force over contact force at which the packing counts as relaxed");
-    v.integer("seed", r.seed, 0, INT64_MAX, of_seed);
 }
 
 SpecimenRecipe granular_recipe() {

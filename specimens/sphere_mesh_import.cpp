@@ -53,6 +53,14 @@ class Lines {
     }
     [[nodiscard]] std::size_t number() const { return number_; }
     [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(fmt::format("{}:{}: {}", file_, number_, what)); }
+    // A line has too few or too many fields, as those with decimal commas have, which would be taken for separators.
+    void need(bool right, const std::string& what) const {
+        if (!right) {
+            const auto line = lines_[number_ - 1];
+            const bool points = line.find(',') == line.npos || line.find('.') != line.npos;
+            fail(fmt::format("{}{}, in {}", what, points ? "" : ", with decimal points and not commas", shown(line)));
+        }
+    }
     double real(const std::string& text) const {
         double x = 0.0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
@@ -164,18 +172,14 @@ ReadSpheres read_gid_text(const std::string& file, std::string text) {
             }
             block.clear();
         } else if (block == "coordinates") {
-            if (f.size() < 3) {
-                in.fail("a node needs its number and coordinates");
-            }
+            in.need(f.size() == 3 || f.size() == 4, "a node needs its number and two or three coordinates");
             refuse(in, put_node(nodes, in.whole(f[0]), {in.real(f[1]), in.real(f[2]), f.size() > 3 ? in.real(f[3]) : 0.0}));
         } else if (block == "elements" && !spheres) {
             for (std::size_t k = 1; k < f.size(); ++k) {
                 others.insert(in.whole(f[k]));
             }
         } else if (block == "elements") {
-            if (f.size() < 3) {
-                in.fail("a sphere element needs number, node and radius");
-            }
+            in.need(f.size() == 3 || f.size() == 4, "a sphere element needs number, node, radius and at most a material");
             refuse(in, put_radius(nodes, in.whole(f[1]), in.radius(f[2])));
         } else {
             passed_over.push_back(fmt::format("{}", in.number()));
@@ -286,14 +290,10 @@ ReadSpheres read_mdpa(const std::string& file) {
             }
             open.pop_back();
         } else if (block == "nodes") {
-            if (f.size() != 4) {
-                in.fail("a node needs its number and three coordinates");
-            }
+            in.need(f.size() == 4, "a node needs its number and three coordinates");
             refuse(in, put_node(nodes, in.whole(f[0]), {in.real(f[1]), in.real(f[2]), in.real(f[3])}));
         } else if (block == "nodaldata radius" || block == "nodaldata cohesive_group") {
-            if (f.size() < 3) {
-                in.fail("a node's number, whether it is fixed, and a value are expected");
-            }
+            in.need(f.size() == 3, "a node's number, whether it is fixed, and a value are expected");
             const int id = in.whole(f[0]);
             if (block == "nodaldata radius") {
                 refuse(in, put_radius(nodes, id, in.radius(f.back())));

@@ -18,7 +18,7 @@ namespace proveta::input {
 namespace {
 
 constexpr std::size_t looked_at = 400; // lines from which dialect and columns are made out
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t most_named = 8;  // lines with the same fault
 constexpr const char* only_points = "; if decimals have a comma here, separate cells by semicolons or tabs";
 
 // A comment, or nothing at all; "#N/A" is a missing cell.
@@ -122,13 +122,14 @@ void TextTable::take_rows(std::size_t at, std::size_t number) {
         column.reserve(lines);
         wish_large_pages(column);
     }
-    first_text_.assign(width, none);
+    texts_.resize(width);
     for (auto* of_rows : {&line_, &at_}) {
         of_rows->reserve(lines);
         wish_large_pages(*of_rows);
     }
     std::vector<double> row(width);
     std::vector<std::string_view> cells;
+    std::vector<std::pair<std::size_t, std::string>> wrong; // lines, and what is wrong
     for (; at < text_.size(); ++number) {
         const std::size_t begin = at;
         if (dialect_.read_row(text_, at, row)) {
@@ -146,12 +147,24 @@ void TextTable::take_rows(std::size_t at, std::size_t number) {
             }
             if (cells.size() != width) {
                 const bool commas = dialect_.separator == ',' && cells.size() > width;
-                fail(number, fmt::format("{} cells where the other rows have {}{}", cells.size(), width, commas ? only_points : ""));
+                wrong.emplace_back(number, fmt::format("{} cells where the other rows have {}{}", cells.size(), width,
+                                                       commas && wrong.empty() ? only_points : ""));
+                if (wrong.size() == most_named) {
+                    break;
+                }
+                continue;
             }
             take_row(cells);
         }
         line_.push_back(number);
         at_.push_back(begin);
+    }
+    if (!wrong.empty()) {
+        std::string others;
+        for (std::size_t k = 1; k < wrong.size(); ++k) {
+            others += fmt::format("; line {}: {}", wrong[k].first, wrong[k].second);
+        }
+        fail(wrong.front().first, wrong.front().second + others + (wrong.size() == most_named ? "; ..." : ""));
     }
 }
 
@@ -160,8 +173,8 @@ void TextTable::take_row(const std::vector<std::string_view>& cells) {
         double value = 0.0;
         const Cell is = dialect_.kind(cells[c], value);
         values_[c].push_back(is == Cell::number ? value : std::numeric_limits<double>::quiet_NaN());
-        if (is == Cell::text && first_text_[c] == none) {
-            first_text_[c] = line_.size();
+        if (is == Cell::text && texts_[c].size() < most_named) {
+            texts_[c].push_back(line_.size());
         }
     }
 }
@@ -189,10 +202,15 @@ void TextTable::name_columns(const std::vector<std::vector<std::string_view>>& a
 }
 
 const std::vector<double>& TextTable::numbers(std::size_t column) const {
-    if (const std::size_t row = first_text_[column]; row != none) {
+    if (const auto& rows = texts_[column]; !rows.empty()) {
         const auto& heading = columns_[column].heading;
-        fail(line_[row], fmt::format("\"{}\" is no number{}", cell(row, column).substr(0, 40),
-                                     heading.empty() ? "" : ", in column \"" + heading + "\""));
+        std::string others;
+        for (std::size_t k = 1; k < rows.size(); ++k) {
+            others += fmt::format("; line {}: \"{}\"", line_[rows[k]], cell(rows[k], column).substr(0, 40));
+        }
+        fail(line_[rows.front()],
+             fmt::format("\"{}\" is no number{}{}{}", cell(rows.front(), column).substr(0, 40),
+                         heading.empty() ? "" : ", in column \"" + heading + "\"", others, rows.size() == most_named ? "; ..." : ""));
     }
     return values_[column];
 }

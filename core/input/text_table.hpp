@@ -64,10 +64,10 @@ class TextTable {
     std::string passed_over_;
     std::vector<TextColumn> columns_;
     std::vector<bool> numeric_;
-    std::vector<std::vector<double>> values_; // of each column; NaN where a cell is missing or text
-    std::vector<std::size_t> first_text_;     // of each column, the first row with text there; `none`
-    std::vector<std::size_t> line_;           // of each row, the number of its line
-    std::vector<std::size_t> at_;             // of each row, where its line begins in text_
+    std::vector<std::vector<double>> values_;     // of each column; NaN where a cell is missing or text
+    std::vector<std::vector<std::size_t>> texts_; // of each column, the rows with text there, as many as an error would name
+    std::vector<std::size_t> line_;               // of each row, the number of its line
+    std::vector<std::size_t> at_;                 // of each row, where its line begins in text_
 };
 
 } // namespace proveta::input

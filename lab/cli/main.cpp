@@ -127,8 +127,8 @@ int main(int argc, char** argv) {
                  "proveta"};
     app.set_version_flag("--version", proveta::version_text());
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the calculation failed, 4 files cannot be written, 130 or 143 interrupted by "
-               "Ctrl-C or SIGTERM.");
+    app.footer("Exit codes: 0 done, 2 the input is wrong, 3 the calculation failed, 4 files cannot be written, 130, 143 or 129 interrupted "
+               "by Ctrl-C, SIGTERM or a terminal that closed.");
     proveta::Command chosen;
     proveta::add_run(app, typed, chosen);
     proveta::add_resume(app, typed, chosen);

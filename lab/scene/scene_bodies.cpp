@@ -227,6 +227,7 @@ std::vector<Deformable> make_bodies(const Scene& scene, const std::vector<Materi
                     notes.push_back(fmt::format("Body \"{}\": {}.", b.name, note));
                 }
                 mesh = std::move(read.mesh);
+                say_size(fmt::format("Body \"{}\"", b.name), mesh.node, notes);
             } else {
                 mesh = made(b);
             }

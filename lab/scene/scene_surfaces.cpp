@@ -103,6 +103,7 @@ std::vector<Surface> make_surfaces(const Scene& scene, const std::vector<Materia
                     notes.push_back(fmt::format("Surface \"{}\": {}.", s.name, note));
                 }
                 mesh = std::move(read.mesh);
+                say_size(fmt::format("Surface \"{}\"", s.name), mesh.vertex, notes);
             } catch (const std::runtime_error& error) {
                 problems.push_back({scene.source, fmt::format("/surfaces/{}/file", k), "\"" + s.file + "\"", "a surface", error.what()});
                 continue;

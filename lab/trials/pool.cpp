@@ -46,6 +46,7 @@ pid_t start(const ProcessCommand& command) {
     setpgid(0, 0);
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGHUP, SIG_DFL);
     const int log = open(command.log.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
     const int nothing = open("/dev/null", O_RDONLY);
     if (log < 0 || nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(log, STDOUT_FILENO) < 0 || dup2(log, STDERR_FILENO) < 0) {
@@ -57,10 +58,8 @@ pid_t start(const ProcessCommand& command) {
 
 // Told to stop, and no failure of what it did.
 bool was_stopped(int status) {
-    if (WIFSIGNALED(status)) {
-        return WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM;
-    }
-    return WEXITSTATUS(status) == exit_signal + SIGINT || WEXITSTATUS(status) == exit_signal + SIGTERM;
+    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status) - exit_signal;
+    return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
 }
 
 ProcessFailure failure_of(int status) {

@@ -16,17 +16,6 @@ using input::Json;
 
 namespace {
 
-// Problems of a deck at the place where it stands in the file.
-void keep(const input::InputError& error, const std::string& file, const std::string& at, bool own_file, input::Problems& problems) {
-    for (auto problem : error.problems) {
-        if (!own_file) {
-            problem.source = file;
-            problem.path = at + problem.path;
-        }
-        problems.push_back(problem);
-    }
-}
-
 bool is_name(const std::string& name) {
     const auto good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
     return is_member_name(name) && std::all_of(name.begin(), name.end(), good);
@@ -44,8 +33,12 @@ void declare(input::Visitor& v, TestKeys& k) {
 namespace {
 
 const Json* value_at(const Json& json, const std::string& path) {
-    const Json::json_pointer pointer(path);
-    return json.is_object() && json.contains(pointer) ? &json[pointer] : nullptr;
+    try {
+        const Json::json_pointer pointer(path);
+        return json.is_object() && json.contains(pointer) ? &json[pointer] : nullptr;
+    } catch (const Json::exception&) { // a key with ~ in it
+        return nullptr;
+    }
 }
 
 // Where a key of a test's deck was written.
@@ -54,13 +47,30 @@ struct TestPlaces {
     const Json& own;
     std::string file, source, at; // the sweep or calibration, the deck's file, and the test in the former
 
+    // A problem of the deck, at the place where its key was written; one that no key is there for belongs to the test.
+    [[nodiscard]] input::Problem placed(input::Problem problem) const {
+        if (problem.source != source) { // a card's file
+            return problem;
+        }
+        const bool shared = !problem.path.empty() && value_at(own, problem.path) == nullptr && value_at(common, problem.path) != nullptr;
+        problem.source = shared ? file : source;
+        problem.path = (shared ? "/deck" : source == file ? at + "/deck" : "") + problem.path;
+        return problem;
+    }
+
     // A problem of a key that somebody wrote.
     [[nodiscard]] input::Problem problem(const std::string& key, const std::string& expected, const std::string& hint) const {
-        const bool is_own = value_at(own, key) != nullptr;
-        const std::string where = is_own ? (source == file ? at + "/deck" : std::string()) : "/deck";
-        return {is_own ? source : file, where + key, value_at(is_own ? own : common, key)->dump(), expected, hint};
+        const Json* written = value_at(own, key);
+        return placed({source, key, (written != nullptr ? written : value_at(common, key))->dump(), expected, hint});
     }
 };
+
+// What all tests share is said once.
+void say_once(const input::Problem& problem, input::Problems& problems) {
+    if (std::none_of(problems.begin(), problems.end(), [&](const auto& p) { return p.text() == problem.text(); })) {
+        problems.push_back(problem);
+    }
+}
 
 // Trials keep curve and results: what `proveta run` writes besides is refused where somebody asks for it. The decks keep its defaults, with
 // which `proveta run` shows a trial.
@@ -72,10 +82,7 @@ void check_output(const TrialTest& test, const TestPlaces& places, input::Proble
         if (value_at(test.written, path) == nullptr || test.deck["output"][key] == 0) {
             continue;
         }
-        const auto problem = places.problem(path, "0, or no such key: the tests of sweeps and calibrations write none", hint);
-        if (std::none_of(problems.begin(), problems.end(), [&](const auto& p) { return p.text() == problem.text(); })) {
-            problems.push_back(problem); // what all tests share is said once
-        }
+        say_once(places.problem(path, "0, or no such key: the tests of sweeps and calibrations write none", hint), problems);
     }
 }
 
@@ -156,13 +163,12 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
             complain(at + "/weight", rest["weight"].dump(), "no such key: a sweep has no targets to weigh");
         }
         TrialTest test{keys.name, {}, common, {}, keys.weight, {}};
-        const bool own_file = tests[k]["deck"].is_string();
-        std::string source = file;
         Json deck = tests[k]["deck"];
+        TestPlaces places{common, deck, file, file, at};
         try {
-            if (own_file) {
-                source = (folder / deck.get<std::string>()).lexically_normal().string();
-                deck = input::load_json(source);
+            if (deck.is_string()) {
+                places.source = (folder / deck.get<std::string>()).lexically_normal().string();
+                deck = input::load_json(places.source);
             }
             if (!deck.is_object()) {
                 complain(at + "/deck", deck.dump(), "a deck, or the name of its file");
@@ -171,14 +177,15 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
             test.written.merge_patch(deck);
             const Json& begun =
                 decks_begun_with.is_object() && decks_begun_with.contains(keys.name) ? decks_begun_with[keys.name] : test.written;
-            const Deck read = read_deck(begun, source);
+            const Deck read = read_deck(begun, places.source);
             test.deck = resolved(read);
             test.files = files_of(read);
         } catch (const input::InputError& error) {
-            keep(error, file, at + "/deck", own_file, problems);
+            for (const auto& problem : error.problems) {
+                say_once(places.placed(problem), problems);
+            }
             continue;
         }
-        const TestPlaces places{common, deck, file, source, at};
         test.seeds = seeds_of(test, keys, rest.contains("seeds"), places, problems);
         if (!rules.begun) {
             check_output(test, places, problems);

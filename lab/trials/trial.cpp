@@ -144,7 +144,8 @@ bool TrialFolders::write(const Trial& t) const {
                 make_specimen(deck, file);
             }
             if (fs::exists(file)) {
-                deck["specimen"] = {{"file", "../../../specimens/" + name}};
+                const Json seed = deck["specimen"].value("seed", Json(SpecimenRecipe{}.seed));
+                deck["specimen"] = {{"file", "../../../specimens/" + name}, {"seed", seed}}; // which strengths may be scattered by
             }
         }
         look();

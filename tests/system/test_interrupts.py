@@ -16,7 +16,7 @@ from small_sweep import sweep
 
 SIGNALS = int(os.environ.get("PROVETA_SIGNALS", "200"))
 SEED = int(os.environ.get("PROVETA_SEED", "1"))
-CODES = {signal.SIGINT: 130, signal.SIGTERM: 143}
+CODES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 OF_SWEEP = ("table.csv", "failures.csv", "sensitivity.csv", "summary.json")
 
 
@@ -53,7 +53,7 @@ class Interrupts(Reliability):
         for _ in range(self.chance.choice((1, 1, 2, 3, 5))):
             if process.poll() is not None:
                 break
-            sent.append(self.chance.choice((signal.SIGINT, signal.SIGTERM)))
+            sent.append(self.chance.choice(tuple(CODES)))
             process.send_signal(sent[-1])
             time.sleep(self.chance.choice((0.0, 0.001, 0.03, 0.2)))
         _, log = process.communicate(timeout=120)

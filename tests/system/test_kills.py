@@ -203,10 +203,10 @@ class Scenes(Reliability):
 
 
 class Signals(Reliability):
-    def test_sigint_and_sigterm_end_with_a_partial_result_that_goes_on(self):
+    def test_interrupts_end_with_a_partial_result_that_goes_on(self):
         deck = self.deck({"test": "ucs", "specimen": BODY, "output": {"checkpoint_every": 0}})
         self.assertEqual(self.run_program("run", deck, "--out", "whole", "--quiet").returncode, 0)
-        for number, code in [(signal.SIGINT, 130), (signal.SIGTERM, 143)]:
+        for number, code in [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]:
             shutil.rmtree(self.folder / "part", ignore_errors=True)
             process = self.start("run", deck, "--out", "part", until="part/fields")
             process.send_signal(number)

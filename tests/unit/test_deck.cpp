@@ -92,6 +92,30 @@ TEST_CASE("sizes of another shape, regions outside and steps that nothing could 
     CHECK(has(both, "/numerics/time_step"));
 }
 
+TEST_CASE("a stored specimen leaves nothing to set but the seed of strengths, which a manifest keeps") {
+    const auto beside = problems_of(R"({"test": "ucs", "specimen": {"file": "s.h5", "spheres": 500, "seed": 3, "sphere": 2}})");
+    CHECK(beside.size() == 2);
+    CHECK(has(beside, "/specimen/spheres"));
+    CHECK(has(beside, "/specimen/sphere"));
+    Json json = Json::parse(R"({"test": "ucs", "specimen": {"file": "s.h5", "seed": 3}})");
+    CHECK_FALSE(resolved(read_deck(json, "deck.json"))["specimen"].contains("seed"));
+    json["regions"] = Json::parse(R"([{"from": [-1, -1, 0], "to": [1, 1, 1], "material": {"weibull_modulus": 8}}])");
+    CHECK(resolved(read_deck(json, "deck.json"))["specimen"]["seed"] == 3);
+}
+
+TEST_CASE("a region's material begins as the deck's, and a region has to differ") {
+    const Deck deck = read_deck(Json::parse(R"({"test": "ucs", "material": {"card": "custom", "density": 2100}, "regions": [
+        {"from": [-1, -1, 0], "to": [1, 1, 1], "group": 1},
+        {"from": [-1, -1, 0], "to": [1, 1, 1], "material": {"young_modulus": "9 GPa"}},
+        {"from": [-1, -1, 0], "to": [1, 1, 1], "material": {"card": "concrete_dempack"}}]})"),
+                                "deck.json");
+    CHECK(deck.regions[0].material.values.density == 2100.0);
+    CHECK(deck.regions[1].material.values.density == 2100.0);
+    CHECK(deck.regions[1].material.values.young_modulus == 9e9);
+    CHECK(deck.regions[2].material.values.name == "concrete_dempack");
+    CHECK(has(problems_of(R"({"test": "ucs", "regions": [{"from": [-1, -1, 0], "to": [1, 1, 1]}]})"), "/regions/0"));
+}
+
 TEST_CASE("loose contacts, schemes and damping: wrong words and bounds are named") {
     const auto problems = problems_of(R"({"test": "ucs", "material": {"contact_law": "hertzian", "restitution_rule": "tsuji",
         "rolling_friction": -0.1, "contact_restitution": 0}, "numerics": {"scheme": "verlet", "damping": "none", "damping_rotation": -1}})");

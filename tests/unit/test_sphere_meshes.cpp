@@ -100,6 +100,9 @@ TEST_CASE("sphere meshes that are cut or contradict themselves are refused with 
     says(in_kratos("End Nodes", "End Elements"), "closes no block that is open");
     says(in_kratos("2 0 0 1", "1 0 0 1"), "k.mdpa:3: a second node 1 in another place");
     says(in_kratos("2 0 0 1", "2 0 0 1 4"), "k.mdpa:3: a node needs its number and three coordinates");
+    says(in_kratos("2 0 0 1", "2 0 0 1,25"), "k.mdpa:3: a node needs its number and three coordinates, with decimal points");
+    says(in_kratos("2 0 0.5", "2 0 0,5"), "k.mdpa:7: a node's number, whether it is fixed, and a value are expected, with decimal points");
+    says(in_gid("2 0 0 1", "2 0,5 0,25 1,5"), "g.msh:4: a node needs its number and two or three coordinates, with decimal points");
     says(in_kratos("2 0 0.5", "1 0 0.25"), "k.mdpa:7: a second radius of node 1");
     says(in_kratos("2 0 0.5", "\x01 0 0.5"), "\"?\" is not a finite number");
 

@@ -277,6 +277,19 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
     CHECK(bounds.front().found.find("tau_f = -1") != std::string::npos);
 }
 
+TEST_CASE("what all tests of a sweep share is wrong once, where it is written") {
+    const TemporaryFolder folder;
+    const auto problems = problems_of_sweep(folder.file("s.json", R"({"deck": {"specimen": {"seed": [1, 2]}, "output": {"pictures": 9000}},
+        "tests": [{"name": "press", "deck": {"test": "ucs", "loading": {"rte": 1}}}, {"name": "split", "deck": {"test": "brazilian"}}],
+        "parameters": [{"path": "material.density", "low": 2000, "high": 2500}]})"));
+    std::vector<std::string> paths;
+    for (const auto& p : problems) {
+        paths.push_back(p.path);
+    }
+    std::sort(paths.begin(), paths.end());
+    CHECK(paths == std::vector<std::string>{"/deck/output/pictures", "/deck/specimen/seed", "/tests/0/deck/loading/rte"});
+}
+
 TEST_CASE("table, sensitivities and page of a sweep") {
     const TemporaryFolder folder;
     const bool trajectories = GENERATE(false, true);

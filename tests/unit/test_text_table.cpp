@@ -114,6 +114,22 @@ TEST_CASE("text table: missing cells, text in other columns, cells that are no n
     CHECK(holds(refusal([&] { (void)w.numbers(0); }), "line 2: \"x\" is no number"));
 }
 
+TEST_CASE("text table: lines with the same fault are told together") {
+    const TemporaryFolder folder;
+    const TextTable t(folder.file("t.csv", "a,b\n1,2\nx,3\n4,5\ny,6\n7,8\n9,1\n"));
+    const auto cells = refusal([&] { (void)t.numbers(0); });
+    CHECK(holds(cells, "line 3: \"x\" is no number, in column \"a\"; line 5: \"y\""));
+    const auto rows = refusal([&] { TextTable(folder.file("r.csv", "a,b\n1,2\n3\n4,5\n6,7\n8,9,1\n")); });
+    CHECK(holds(rows, "line 3: 1 cells where the other rows have 2; line 6: 3 cells"));
+    std::string many = "a,b\n1,2\n1,2\n";
+    for (int k = 0; k < 20; ++k) {
+        many += "x,1\n1,2\n1,2\n";
+    }
+    const auto some = refusal([&] { (void)TextTable(folder.file("m.csv", many)).numbers(0); });
+    CHECK(holds(some, "; ..."));
+    CHECK(some.size() < 300);
+}
+
 TEST_CASE("text table: what cannot be told is refused") {
     const TemporaryFolder folder;
     CHECK(holds(refusal([&] { TextTable(folder.file("t.csv", std::string("\x1f\x8b\x08\x00\x01", 5))); }), "compressed by gzip"));
