@@ -6,7 +6,9 @@ function(add_revision library)
   set(built_by "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE} Eigen ${Eigen3_VERSION}")
   string(APPEND built_by " ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}}")
   foreach(target kernels_baseline kernels_avx2 kernels_avx512) # each with what all are compiled with
-    string(APPEND built_by " ${target} $<JOIN:$<TARGET_PROPERTY:${target},COMPILE_OPTIONS>, >")
+    if(TARGET ${target})
+      string(APPEND built_by " ${target} $<JOIN:$<TARGET_PROPERTY:${target},COMPILE_OPTIONS>, >")
+    endif()
   endforeach()
   set(source ${PROJECT_BINARY_DIR}/generated/lab/revision.cpp)
   add_custom_target(${library}_look_up

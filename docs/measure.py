@@ -112,7 +112,8 @@ def settings_of(table):
     tests = table["tests"]
     shared = [s for s in next(iter(tests.values())).get("set", []) if all(s in t.get("set", []) for t in tests.values())]
     own = {key: [s for s in test.get("set", []) if s not in shared] for key, test in tests.items()}
-    said = [f"`{s}`" for s in shared] + [f"{key.replace('_', ' ')}: `{', '.join(some)}`" for key, some in own.items() if some]
+    spoken = {key: re.sub(r"(\d)_(\d)", r"\1.\2", key).replace("_", " ") for key in tests}
+    said = [f"`{s}`" for s in shared] + [f"{spoken[key]}: `{', '.join(some)}`" for key, some in own.items() if some]
     return f" ({'; '.join(said)})" if said else ""
 
 

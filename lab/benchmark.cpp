@@ -115,7 +115,7 @@ double triad_bandwidth(double bytes, int threads, int repeats) {
 }
 
 double arithmetic_peak(int threads, int repeats) {
-    static const PeakKernel kernel = pick_variant(peak_kernel_baseline, peak_kernel_avx2, peak_kernel_avx512);
+    static const PeakKernel kernel = PROVETA_PICK(peak_kernel);
     constexpr std::size_t rounds = 2'000'000;
     Team team(threads);
     std::vector<double> sink(static_cast<std::size_t>(threads) * 8); // a cache line each

@@ -49,8 +49,8 @@ std::vector<std::string> warnings_in_press(const Bench& bench, const Deck& deck)
     }
     if (const auto& l = bench.long_bonds; l.count > 0) {
         out.push_back(
-            fmt::format("{} of {} bonds are longer than {:.3g} mm, so that they tear with less than the card's fracture energy: smaller "
-                        "spheres, or more tensile_characteristic_length.",
+            fmt::format("{} of {} bonds are longer than {:.3g} mm, so that they soften by their own length and strengths depend on the "
+                        "number of spheres: smaller spheres, or more tensile_characteristic_length.",
                         l.count, bench.model->bonds.size(), 1e3 * l.longest_allowed));
     }
     const Shape& shape = bench.specimen.shape;

@@ -185,6 +185,9 @@ Deck read_deck(const Json& given, const std::string& file) {
             }
         }
     }
+    if (json.is_object() && json.contains("specimen")) {
+        read_grading_files(json["specimen"], deck.folder, file, "/specimen", problems);
+    }
     input::read(json, deck, file, "", problems);
     check_recipe(deck.specimen, file, "/specimen", problems);
     check_card(deck.material.values, file, "/material", problems);
@@ -291,6 +294,7 @@ Json deck_schema() {
         one["properties"]["test"] = {{"const", name}};
         one["required"] = {"test"};
         allow_lists(one);
+        allow_grading_files(one);
         schema["oneOf"].push_back(one);
     }
     return schema;

@@ -281,6 +281,10 @@ void check_card(const Card& c, const std::string& source, const std::string& pat
             problems.push_back({source, path + "/" + key, found, "left out with law \"" + c.law + "\"", why});
         }
     };
+    if (scatters_strength(c) && std::get<Facet::Parameters>(c.bond).weibull_modulus < 1.0) {
+        problems.push_back({source, path + "/weibull_modulus", fmt::format("{:.4g}", std::get<Facet::Parameters>(c.bond).weibull_modulus),
+                            "0, or a modulus of at least 1", "concrete has 5 to 20; below 1 most facets would have no strength at all"});
+    }
     const auto* dempack = std::get_if<Dempack::Parameters>(&c.bond);
     only(c.criterion != "bond", dempack != nullptr, "criterion", "\"" + c.criterion + "\"",
          "an averaged criterion takes its strengths from the law dempack");

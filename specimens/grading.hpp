@@ -20,6 +20,15 @@ void declare(input::Visitor& v, GradingPoint& point);
 /// Whether a recipe's curve ascends from passing 0 to passing 1; if not, the first point that is wrong is told. path: of the list.
 bool check_grading(const std::vector<GradingPoint>& curve, const std::string& source, const std::string& path, input::Problems& problems);
 
+/// Wherever `json` has the name of a file under "grading", puts the points there that its table has: a column of sieve sizes with their
+/// unit, and one of what passes, in per cent or as a share. Sieves that nothing passes but the widest of them, and those that all passes
+/// but the narrowest, are left out. folder: where names start; source and path: the place of `json`, for problems.
+void read_grading_files(input::Json& json, const std::string& folder, const std::string& source, const std::string& path,
+                        input::Problems& problems);
+
+/// Lets "grading" be the name of a file, too, wherever the schema has one.
+void allow_grading_files(input::Json& schema);
+
 /// A point of a sieve curve: the share of the mass that is finer than the diameter.
 struct SievePoint {
     double diameter; ///< m

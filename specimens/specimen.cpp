@@ -67,8 +67,8 @@ void declare(input::Visitor& v, SpecimenRecipe& r) {
     v.number("smallest_radius", r.smallest_radius, Unit::none, {0.05, 1.0, false, false}, "lower cut, over the mean radius");
     v.number("largest_radius", r.largest_radius, Unit::none, {1.0, 10.0, false, false}, "upper cut, over the mean radius");
     v.list("grading", r.grading,
-           "sieve curve instead of the normal distribution: ascending diameters from passing 0 to passing 1; scaled to meet porosity and "
-           "number of spheres");
+           "sieve curve instead of the normal distribution: ascending diameters from passing 0 to passing 1, or the name of a table of "
+           "them; scaled to meet porosity and number of spheres");
     v.number("relaxation", r.relaxation, Unit::none, between(1e-4, 0.5),
              "net force over contact force at which the packing counts as relaxed");
 }

@@ -15,7 +15,7 @@ void prepare_bond_forces(Bonds& bonds, bool measure) {
 
 BondDissipation bond_forces(const SphereView& spheres, const Bonds& bonds, const BondView& view, std::size_t block, double* rows, double dt,
                             bool measure, std::vector<BondFailure>& failures) {
-    static const BondKernel* const kernels = pick_variant(bond_kernels_baseline, bond_kernels_avx2, bond_kernels_avx512)();
+    static const BondKernel* const kernels = PROVETA_PICK(bond_kernels)();
     BondDissipation sum;
     for (auto r = bonds.first_block[block]; r < bonds.first_block[block + 1]; ++r) {
         const BondBlock& run = bonds.blocks[r];

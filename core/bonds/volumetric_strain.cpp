@@ -32,7 +32,8 @@ void measure_volumetric_strain(const Spheres& s, Bonds& b, std::size_t begin, st
             const double elongation =
                 distance_at_rest(s.position.x[j] - s.position.x[i], s.position.y[j] - s.position.y[i], s.position.z[j] - s.position.z[i]) -
                 b.length[bond];
-            sum += (second ? b.volumetric.weight_j : b.volumetric.weight_i)[bond] * elongation;
+            const double averaged = b.dilatation.active() ? b.dilatation.shift[bond] : 0.0; // which the law sees, too
+            sum += (second ? b.volumetric.weight_j : b.volumetric.weight_i)[bond] * (elongation + averaged);
         }
         b.volumetric.strain[k] = sum;
     }

@@ -141,7 +141,7 @@ ContactView Contacts::view() {
 
 ContactEnergies contact_forces(const SphereView& spheres, const Contacts& contacts, const ContactView& view, std::size_t block,
                                const ContactStep& step, Loads& loads) {
-    static const ContactKernel kernel = pick_variant(contact_kernel_baseline, contact_kernel_avx2, contact_kernel_avx512);
+    static const ContactKernel kernel = PROVETA_PICK(contact_kernel);
     ContactEnergies sum;
     kernel(spheres, view, loads.rows(), contacts.first[block], contacts.first[block + 1], step, sum);
     return sum;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace proveta {
 
@@ -69,23 +70,29 @@ KratosDempack::Parameters KratosDempack::scaled(Parameters p, double factor) {
 
 Facet::Parameters Facet::mix(const Parameters& a, const Parameters& b) {
     Parameters m = a;
-    // Strengths, frictions and what holds them up: the lower; shapes of curves: the mean.
-    for (double Parameters::*weaker : {&Parameters::sigma_t, &Parameters::length_t, &Parameters::shear_ratio_t, &Parameters::sigma_c0,
-                                       &Parameters::mu_0, &Parameters::mu_inf}) {
+    // Strengths, fracture energies and frictions: the lower; shapes of curves: the mean.
+    for (double Parameters::*weaker : {&Parameters::sigma_t, &Parameters::sigma_c0, &Parameters::mu_0, &Parameters::mu_inf}) {
         m.*weaker = std::min(a.*weaker, b.*weaker);
     }
-    for (double Parameters::*shape :
-         {&Parameters::exponent, &Parameters::softening_s, &Parameters::first_length, &Parameters::tail, &Parameters::hardening,
-          &Parameters::transition, &Parameters::kappa_c1, &Parameters::kappa_c2, &Parameters::kappa_c3, &Parameters::coupling,
-          &Parameters::sigma_n0, &Parameters::cohesion_loss, &Parameters::correlation_length}) {
+    const auto cohesion = [](const Parameters& p) { return p.shear_ratio_t * p.sigma_t; };
+    const auto energy = [](const Parameters& p) { return p.sigma_t * p.sigma_t * p.length_t; }; // times 2 E0
+    m.shear_ratio_t = std::min(cohesion(a), cohesion(b)) / m.sigma_t;
+    m.length_t = std::min(energy(a), energy(b)) / (m.sigma_t * m.sigma_t);
+    for (double Parameters::*shape : {&Parameters::exponent, &Parameters::softening_s, &Parameters::first_length, &Parameters::tail,
+                                      &Parameters::hardening, &Parameters::transition, &Parameters::kappa_c1, &Parameters::kappa_c2,
+                                      &Parameters::kappa_c3, &Parameters::coupling, &Parameters::sigma_n0, &Parameters::cohesion_loss}) {
         m.*shape = std::midpoint(a.*shape, b.*shape);
     }
     if (a.first_length == 0.0 || b.first_length == 0.0) {
         m.first_length = 0.0; // one of them has a single stage
     }
     // The wider scatter.
-    m.weibull_modulus = a.weibull_modulus == 0.0 || b.weibull_modulus == 0.0 ? std::max(a.weibull_modulus, b.weibull_modulus)
-                                                                             : std::min(a.weibull_modulus, b.weibull_modulus);
+    const auto scatter = [](const Parameters& p) { // comes first of two that is wider, then longer
+        return std::tuple(p.weibull_modulus == 0.0, p.weibull_modulus, -p.correlation_length);
+    };
+    const Parameters& wider = scatter(a) <= scatter(b) ? a : b;
+    m.weibull_modulus = wider.weibull_modulus;
+    m.correlation_length = wider.correlation_length;
     return m;
 }
 

@@ -6,7 +6,7 @@
 namespace proveta {
 
 MotionSums move_spheres(Spheres& s, Loads& loads, const SphereBlock& block, const MotionRule& rule, double dt, bool first, bool measure) {
-    static const MotionKernel kernel = pick_variant(motion_kernel_baseline, motion_kernel_avx2, motion_kernel_avx512);
+    static const MotionKernel kernel = PROVETA_PICK(motion_kernel);
     loads.collect(block);
     const auto pointers = [](VectorField& f, double*(&out)[3]) {
         out[0] = f.x.data();

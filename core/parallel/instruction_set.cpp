@@ -3,7 +3,7 @@
 namespace proveta {
 
 InstructionSet instruction_set() {
-#ifdef PROVETA_X86
+#ifndef PROVETA_ONE_VARIANT
     static const InstructionSet best = [] {
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
             return InstructionSet::avx512;

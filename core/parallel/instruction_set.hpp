@@ -15,13 +15,17 @@ InstructionSet instruction_set();
 std::string instruction_set_name();
 
 /// Picks among three pointers to the variants of one kernel.
-template <class Kernel> Kernel pick_variant(Kernel baseline, [[maybe_unused]] Kernel avx2, [[maybe_unused]] Kernel avx512) {
-#ifdef PROVETA_X86
+template <class Kernel> Kernel pick_variant(Kernel baseline, Kernel avx2, Kernel avx512) {
     const InstructionSet set = instruction_set();
     return set == InstructionSet::avx512 ? avx512 : set == InstructionSet::avx2 ? avx2 : baseline;
-#else
-    return baseline;
-#endif
 }
+
+// The variant of a kernel that this machine runs: PROVETA_PICK(bond_kernels). Builds of one variant (PROVETA_ONE_VARIANT, as for sanitizers,
+// and for other processors) have the baseline alone.
+#ifdef PROVETA_ONE_VARIANT
+#define PROVETA_PICK(name) name##_baseline
+#else
+#define PROVETA_PICK(name) proveta::pick_variant(name##_baseline, name##_avx2, name##_avx512)
+#endif
 
 } // namespace proveta

@@ -3,6 +3,7 @@
 #include <omp.h>
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "core/bonds/bonds.hpp"
@@ -111,6 +112,8 @@ void add_make(CLI::App& group, const std::shared_ptr<SpecimenArguments>& a, Comm
             }
             input::Problems problems;
             const std::string source = a->deck.empty() ? "recipe" : a->deck;
+            const std::string folder = a->deck.empty() ? "." : std::filesystem::absolute(a->deck).parent_path().string();
+            read_grading_files(json, folder, source, "", problems);
             input::read(json, recipe, source, "", problems);
             check_recipe(recipe, source, "", problems);
             if (!problems.empty()) {

@@ -89,7 +89,8 @@ void declare(input::Visitor& v, ParticleInput& p) {
     v.number("deviation", p.deviation, Unit::none, between(0, 1), "relative standard deviation of the size");
     v.number("smallest", p.smallest, Unit::none, between(0.01, 1), "smallest size over the mean");
     v.number("largest", p.largest, Unit::none, between(1, 100), "largest size over the mean");
-    v.list("grading", p.grading, "sieve curve in place of size and deviation");
+    v.list("grading", p.grading,
+           "sieve curve in place of size and deviation: points, or the name of a table of sieve sizes and what passes them");
     const auto is = [&](const char* form) { return v.wants_all() || p.form == form; };
     if (is("stone")) {
         v.number("elongation", p.elongation, Unit::none, between(0.1, 1), "intermediate over longest axis (Zingg)");
@@ -221,6 +222,9 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
             preload(material, scene.materials[k].material, scene.folder, file, fmt::format("/materials/{}/material", k), problems);
         }
     }
+    if (json.is_object() && json.contains("particles")) {
+        read_grading_files(json["particles"], scene.folder, file, "/particles", problems);
+    }
     input::read(json, scene, file, "", problems);
     check_scene(scene, problems);
     if (!problems.empty()) {
@@ -279,6 +283,7 @@ Json resolved(const Scene& scene) {
 Json scene_schema() {
     Scene scene;
     Json schema = input::schema(scene);
+    allow_grading_files(schema);
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
     schema["title"] = "Proveta scene";
     schema["required"] = {"scene"};

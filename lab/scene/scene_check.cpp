@@ -144,17 +144,7 @@ class Check {
         if (p.form == "file") {
             file(p.file, at);
         }
-        for (std::size_t k = 0; k < p.grading.size(); ++k) {
-            const auto& point = p.grading[k];
-            const bool first = k == 0;
-            const bool good =
-                point.diameter > 0.0 &&
-                (first ? point.passing == 0.0 : point.diameter > p.grading[k - 1].diameter && point.passing > p.grading[k - 1].passing);
-            if (!good || (k + 1 == p.grading.size() && (first || point.passing != 1.0))) {
-                say(fmt::format("{}/grading/{}", at, k), fmt::format("{:.6g} m: {:.6g}", point.diameter, point.passing),
-                    "diameters and passing that both rise, passing from 0 to 1");
-            }
-        }
+        check_grading(p.grading, scene_.source, at + "/grading", problems_);
         const double size = p.grading.empty() ? p.size : p.grading.back().diameter;
         box(p.from, p.to, size, at);
     }

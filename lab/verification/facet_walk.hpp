@@ -33,9 +33,11 @@ struct Walk {
     double work = 0.0, damage = 0.0, plastic = 0.0, friction = 0.0;
     double volumetric = 0.0;
 
+    double strength = 1.0; // of this facet over the card's
+
     explicit Walk(const Facet::Parameters& p, double l = 0.0077) : c(Facet::constants(p, {e_0, alpha, 0.25})), length(l) {}
 
-    [[nodiscard]] BondShape<double> bond() const { return {e_0 * area / length, area, length, volumetric, 1.0}; }
+    [[nodiscard]] BondShape<double> bond() const { return {e_0 * area / length, area, length, volumetric, strength}; }
     [[nodiscard]] double s_n() const { return -r.normal / area; } // tension positive
     [[nodiscard]] double s_t() const { return r.shear[0] / area; }
     [[nodiscard]] double lost() const { return damage + plastic + friction; }
@@ -81,16 +83,19 @@ inline double papers_stress(const Facet::Parameters& p, double length, double w,
         return e_0 * e;
     }
     const double g = std::pow(2.0 * w / std::numbers::pi, p.exponent);
-    const double of_length = p.first_length > 0.0 ? p.first_length : length;
+    const double tail = 1.0 - p.tail;
+    // l_0, longer where the facet is so long that the tail would have less than a hundredth of the first stage's energy
+    const double l_0 = std::max(p.first_length, p.length_t / (1.0 + (p.length_t / length - 1.0) / (1.01 * tail)));
+    const double of_length = p.first_length > 0.0 ? l_0 : length;
     const double h_s = p.softening_s * e_0 / alpha;
     const double h_1 = h_s + (2.0 * e_0 / (p.length_t / of_length - 1.0) - h_s) * g;
     if (p.first_length <= 0.0) {
         return s_0 * std::exp(-h_1 * x / s_0);
     }
     const double x_1 = -s_0 * std::log(p.tail) / h_1;
-    const double spare = p.length_t / length - 1.0 - (1.0 - p.tail) * (p.length_t / p.first_length - 1.0);
+    const double spare = p.length_t / length - 1.0 - tail * (p.length_t / l_0 - 1.0);
     // the tail is to the first stage in every direction what it is in pure tension
-    const double h_2 = h_1 * p.tail * p.tail * (p.length_t / p.first_length - 1.0) / spare;
+    const double h_2 = h_1 * p.tail * p.tail * (p.length_t / l_0 - 1.0) / spare;
     return x < x_1 ? s_0 * std::exp(-h_1 * x / s_0) : p.tail * s_0 * std::exp(-h_2 * (x - x_1) / (p.tail * s_0));
 }
 

@@ -59,6 +59,38 @@ TEST_CASE("graded radii follow the sieve curve by mass") {
     CHECK(fine / total == Approx(0.4).epsilon(0.01));
 }
 
+TEST_CASE("a sieve curve may be a table, as laboratories write it") {
+    const TemporaryFolder folder;
+    const std::string where = std::filesystem::path(folder.file("s.csv")).parent_path().string();
+    const auto read = [&](const std::string& table, input::Problems& problems) {
+        (void)folder.file("s.csv", table);
+        input::Json json = input::Json::parse(R"({"specimen": {"particles": [{"grading": "s.csv"}]}})");
+        read_grading_files(json, where, "deck.json", "", problems);
+        return json["specimen"]["particles"][0]["grading"];
+    };
+    input::Problems none;
+    const auto ballast = read("Sieve (mm);Passing (%)\n63;100\n50;100\n40;72,5\n22,4;0\n16;0\n", none);
+    CHECK(none.empty());
+    REQUIRE(ballast.size() == 3);
+    CHECK(ballast[0]["diameter"].get<double>() == Approx(0.0224));
+    CHECK(ballast[0]["passing"] == 0.0);
+    CHECK(ballast[1]["passing"].get<double>() == Approx(0.725));
+    CHECK(ballast[2]["diameter"].get<double>() == Approx(0.050));
+    CHECK(read("d_mm,finer\n2,0\n4,0.5\n8,1\n", none)[1]["passing"] == 0.5);
+    CHECK(none.empty());
+    const auto refusal = [&](const std::string& table) {
+        input::Problems problems;
+        (void)read(table, problems);
+        REQUIRE(problems.size() == 1);
+        CHECK(problems[0].path == "/specimen/particles/0/grading");
+        return problems[0].suggestion;
+    };
+    CHECK_THAT(refusal("size,passing\n2,0\n4,1\n"), Catch::Contains("the sieve sizes have no unit"));
+    CHECK_THAT(refusal("size_mm,retained\n2,0\n4,1\n"), Catch::Contains("no column of share passing"));
+    CHECK_THAT(refusal("size_mm,passing\n2,0\n4,85\n"), Catch::Contains("neither 1 nor 100 per cent"));
+    CHECK_THAT(refusal("size_mm,passing\n2,0\n4,\n8,1\n"), Catch::Contains("line 3: the share passing is missing"));
+}
+
 TEST_CASE("a packing is inside, dense as asked, and the same for every number of threads") {
     const int threads = omp_get_max_threads();
     omp_set_num_threads(1);

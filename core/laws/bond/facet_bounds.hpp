@@ -111,11 +111,12 @@ struct FacetBounds {
         return select(beyond > zero, T(end * exp_of(T(beyond * modulus / end))), straight);
     }
 
-    /// Strength by which a facet too long for one stage is cut; 1 with two stages.
+    /// Strength by which a facet is cut that is too long for its energy; 1 for others.
     template <class T> PROVETA_INLINE static T cut(const Constants& p, const T& length) {
-        using std::min;
         using std::sqrt;
-        return p.first_length > 0.0 ? T(1.0) : T(sqrt(min(T(0.99 * p.length_t / length), T(1.0))));
+        const T longest = T(0.99 * p.length_t);
+        const auto beyond = length > longest;
+        return any_of(beyond) ? select(beyond, T(sqrt(longest / length)), T(1.0)) : T(1.0);
     }
 
     /// Effective stress of an open facet over its strength in that direction, times the area of a facet whose strength is whole, m^2.
@@ -125,9 +126,9 @@ struct FacetBounds {
         return 0.5 * (tension + sqrt(tension * tension + 4.0 * shear_squared));
     }
 
-    /// What `reached` may grow to before the facet is damaged, m^2.
-    template <class T> PROVETA_INLINE static T capacity(const Constants& p, const BondShape<T>& bond) {
-        return bond.area * (bond.strength * cut(p, bond.length));
+    /// Strength of this facet over the card's.
+    template <class T> PROVETA_INLINE static T strength_of(const Constants& p, const BondShape<T>& bond) {
+        return bond.strength * cut(p, bond.length);
     }
 
     /// s_b / s_0 at R >= 1; turn: 2 w / pi.
@@ -135,16 +136,21 @@ struct FacetBounds {
         using std::max;
         const T g = p.exponent == 1.0 ? turn : p.exponent == 0.0 ? T(1.0) : exp_of(T(p.exponent * log_of(turn)));
         const double s = p.shear_softening;
+        const T after_peak =
+            max(T(p.length_t / length), T(1.0 / 0.99)) - 1.0; // energy that softening takes over that of the elastic branch
         if (p.first_length <= 0.0) {
-            const T h = s + (2.0 / (max(T(p.length_t / length), T(1.0 / 0.99)) - 1.0) - s) * g;
+            const T h = s + (2.0 / after_peak - s) * g;
             return exp_of(T(-h * (overload - 1.0)));
         }
-        const T first = s + (p.first_slope - s) * g;
+        // At least a hundredth of the first stage's energy is the tail's: longer facets soften faster from the peak on.
+        const T faster = max(T(1.01 * p.first_energy / after_peak), T(1.0));
+        const T first = s + (p.first_slope * faster - s) * g;
         T along = first * (overload - 1.0);
         const auto past = along > T(p.first_end);
         if (any_of(past)) {
-            const T spare = max(p.length_t - (1.0 + p.first_energy) * length, T(0.01 * p.first_energy * length));
-            along = select(past, T(p.first_end + (along - p.first_end) * (p.tail_rate * length / spare)), along);
+            const T energy = p.first_energy / faster;
+            const T spare = max(p.length_t - (1.0 + energy) * length, T(0.01 * energy * length));
+            along = select(past, T(p.first_end + (along - p.first_end) * (p.tail_rate * length / (faster * spare))), along);
         }
         return exp_of(T(-along));
     }

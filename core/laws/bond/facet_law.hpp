@@ -17,7 +17,8 @@
 //   one stage    s_b = s_0 exp(-h (R - 1)),        h = r_s/alpha + (2 / (L_t/L - 1) - r_s/alpha) g,  g = (2 w / pi)^n_t
 //   two stages   the same with l_0 for L down to phi s_0: one stress-strain law for facets of every size; then a tail,
 //                phi s_0 exp(-h_2 (R - R_1) / phi),  h_2 = h phi^2 (L_t/l_0 - 1) / (L_t/L - 1 - (1 - phi)(L_t/l_0 - 1)),
-//                so that a facet torn in pure tension releases G_t = s_t^2 L_t / (2 E0) an area whatever its length
+//                so that a facet torn in pure tension releases G_t = s_t^2 L_t / (2 E0) an area whatever its length; where L leaves the
+//                tail less than a hundredth of the first stage's energy, l_0 is as much longer as that asks
 // Compression, e_N < 0:  s_N down to -s_bc(e_DV), e_DV = e_V + beta (e_N - e_V); the rest is plastic                  (eqs. 23 to 26)
 // Shear under compression:  |s_T| <= (1 - c D) s_bs - c D mu_d s_N,
 //   s_bs = s_s + (mu_0 - mu_inf) s_N0 (1 - exp(s_N / s_N0)) - mu_inf s_N                                              (eqs. 27 to 29)
@@ -56,7 +57,7 @@ struct Facet : FacetBounds {
     static Parameters scaled(Parameters p, double factor);
     static Constants constants(const Parameters& p, const BondBasis& basis);
     static double tensile_limit(const Constants& c) { return c.sigma_t; }
-    /// Facets longer than this release less than G_t in the second stage, or with one stage lose strength, m.
+    /// Facets longer than this soften by their own length from the peak on, or with one stage lose strength, m.
     static double longest_bond(const Constants& c);
     /// Whether the collapse of pores looks at the strain around the facet.
     static bool uses_volumetric_strain(const Parameters& p) { return p.coupling < 1.0 || p.kappa_c2 > 0.0; }
@@ -102,7 +103,8 @@ struct Facet : FacetBounds {
         // Both parts of the elastic stress over their strengths, times the area.
         const T tension = max(-r.normal, zero) * p.per_sigma_t;
         const T in_shear = k_t * p.per_sigma_s;
-        const T most = capacity(p, bond);
+        const T strength = strength_of(p, bond);
+        const T most = bond.area * strength;
         const auto outside = in_shear * in_shear * dot(trial, trial) > most * (most - tension);
         if (!any_of(outside) && !any_of(s.damage > zero)) {
             for (int c = 0; c < 3; ++c) {
@@ -158,12 +160,11 @@ struct Facet : FacetBounds {
         // Closed: slides over its cohesion and friction; failed: over Coulomb's alone.
         const T pressed = max(r.normal, zero);
         const T force = k_t * slipped;
-        const T least =
-            select(was_failed, T(p.mu_d * pressed), T(bond.strength * bond.area * (p.sigma_s * (1.0 - p.cohesion_loss * damage))));
+        const T least = select(was_failed, T(p.mu_d * pressed), T(strength * bond.area * (p.sigma_s * (1.0 - p.cohesion_loss * damage))));
         auto slides = !opens && (force > least);
         T keep = one;
         if (any_of(slides)) { // the exponential of friction only then
-            const T limit = select(was_failed, least, T(bond.area * shear_limit(p, bond.strength, T(pressed / bond.area), damage)));
+            const T limit = select(was_failed, least, T(bond.area * shear_limit(p, strength, T(pressed / bond.area), damage)));
             slides = slides && (force > limit);
             keep = select(slides, T(limit / max(force, T(smallest))), one);
         }
@@ -199,11 +200,12 @@ struct Facet : FacetBounds {
         using std::min;
         const T zero = T(0.0);
         const T elongation = s.plastic - kin.shortening;
+        const T strength = strength_of(p, bond);
         const T left = max(T(1.0) - s.damage, T(smallest));
         const T in_shear = shear * p.per_sigma_s / left;
-        const T overload = reached(T(bond.k_n * max(elongation, zero) * p.per_sigma_t), T(in_shear * in_shear)) / capacity(p, bond);
+        const T overload = reached(T(bond.k_n * max(elongation, zero) * p.per_sigma_t), T(in_shear * in_shear)) / (bond.area * strength);
         const T pressed = max(normal, zero) / bond.area;
-        const T closed = shear / max(bond.area * shear_limit(p, bond.strength, pressed, s.damage), T(smallest));
+        const T closed = shear / max(bond.area * shear_limit(p, strength, pressed, s.damage), T(smallest));
         const T open = select(s.damage > zero, s.damage, overload);
         return select(failed(s), T(1.0), min(select(elongation > zero, open, closed), T(1.0)));
     }
