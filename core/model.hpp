@@ -158,6 +158,7 @@ class Model {
     [[nodiscard]] double body_work() const;
     [[nodiscard]] double growth() const { return numerics_.overlap_growth.value_or(skin_); }
     void check() const;
+    void check_places() const;
 
     std::vector<double> weight_;
     Numerics numerics_;

@@ -40,6 +40,20 @@ std::string place(const Spheres& s) {
 
 } // namespace
 
+// Before a search, which has no place for what is nowhere.
+void Model::check_places() const {
+    for (std::size_t k = 0; k < spheres.size(); ++k) {
+        if (!finite(spheres.position.at(k))) {
+            std::ostringstream out;
+            out << "at step " << steps_ << " (time " << time_
+                << " s) the calculation diverged: a place is no number any more; probable cause: a time step above the critical one, or a "
+                   "load far above the strength; it shows at "
+                << place(spheres);
+            throw NumericalFailure(out.str());
+        }
+    }
+}
+
 // An unstable step makes energy out of nothing, more of it every step, long before anything stops being a number. What is looked at is
 // energy made only: what gets lost is told in the report. An amount that no bond would notice says nothing.
 void Model::check() const {
@@ -55,7 +69,7 @@ void Model::check() const {
              << " J having been put in; probable cause: "
              << (dt_ > stable_ ? "a time step above the critical one" : "a scheme of integration that no step is small enough for")
              << " (the step is " << dt_ << " s, the bound " << stable_ << " s)";
-    } else if (fastest_ > most) {
+    } else if (mean_radius_ > 0.0 && fastest_ > most) {
         what
             << "a sphere or platen runs away at " << fastest_ << " m/s, more than " << numerics_.fastest
             << " mean radii a step; probable cause: spheres pressed into each other at the start, a load far above the strength, or a time "

@@ -19,6 +19,7 @@ void Model::search() {
     }
     const bool neighbours = search_anew_ || 2.0 * platens_way > skin_ || travel_.beyond(0.5 * (skin_ - ahead), spheres.position);
     if (neighbours) {
+        check_places();
         look_ahead();
         contacts = search_contacts(spheres, bonds, clusters, materials, weight_, skin_, contacts, team_.get());
         platens_at_.resize(walls.platens.size());

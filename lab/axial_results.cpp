@@ -90,7 +90,7 @@ std::vector<report::Scalar> elastic_results(const Loading& l) {
             {"young_modulus_platens", "Modulus from platen travel", slope(travel), "Pa", "the same with platen travel as strain"},
             {"tangent_modulus", "Tangent modulus at 50 %", slope_between(l.gauge, l.deviator, 0.4, 0.6), "Pa",
              "slope between 40 % and 60 % of the peak deviator (ASTM D7012)"},
-            {"secant_modulus", "Secant modulus at 50 %", half ? std::optional(0.5 * peak / *half) : std::nullopt, "Pa",
+            {"secant_modulus", "Secant modulus at 50 %", half && *half > 0.0 ? std::optional(0.5 * peak / *half) : std::nullopt, "Pa",
              "half the peak deviator over its gauge strain (ASTM D7012)"},
             {"average_modulus", "Average modulus", slope_between(l.gauge, l.deviator, 0.2, 0.6), "Pa",
              "slope of the straighter part, 20 % to 60 % of the peak deviator (ASTM D7012)"},

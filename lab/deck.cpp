@@ -129,7 +129,16 @@ void check_reach(const Deck& deck, input::Problems& problems) {
     // A stable step is about the time in which a wave crosses a sphere; mass scaling makes it some times longer.
     const Card& card = deck.material.values;
     const double radius = std::cbrt(3.0 * shape.volume() / (4.0 * std::numbers::pi * static_cast<double>(deck.specimen.spheres)));
-    const double beyond = 30.0 * radius * std::sqrt(card.density / card.young_modulus);
+    const double crossing = radius * std::sqrt(card.density / card.young_modulus);
+    const double beyond = 30.0 * crossing;
+    constexpr double endless = 1e-5;
+    if (deck.numerics.time_step.word.empty() && deck.numerics.time_step.number < endless * crossing) {
+        problems.push_back({deck.source, "/numerics/time_step", input::format_quantity(deck.numerics.time_step.number, Unit::time),
+                            fmt::format("a step near the stable one, some {:.1g} s here: no end is in sight of a test in shorter ones than "
+                                        "a {:.0e}th of it",
+                                        crossing, 1.0 / endless),
+                            "\"auto\""});
+    }
     if (deck.numerics.time_step.word.empty() && deck.numerics.time_step.number > beyond && !shape.planar()) {
         problems.push_back({deck.source, "/numerics/time_step", input::format_quantity(deck.numerics.time_step.number, Unit::time),
                             fmt::format("a stable step, which is far below {:.2g} s here", beyond), "\"auto\""});
@@ -146,7 +155,7 @@ void preload_region(const Json& json, std::size_t k, Deck& deck, input::Problems
         preload(region["material"], material, deck.folder, deck.source, at + "/material", problems);
         return;
     }
-    if (region.is_object() && !region.contains("material") && !region.contains("group")) {
+    if (region.is_object() && (!has_material || region["material"].empty()) && !region.contains("group")) {
         problems.push_back({deck.source, at, "a box in which nothing is different", "a \"material\" or a \"group\" of its own", ""});
     }
     material = deck.material;
@@ -188,7 +197,13 @@ Deck read_deck(const Json& given, const std::string& file) {
     if (json.is_object() && json.contains("specimen")) {
         read_grading_files(json["specimen"], deck.folder, file, "/specimen", problems);
     }
+    const bool has_card = std::none_of(problems.begin(), problems.end(), [](const auto& p) { return p.path == "/material/card"; });
     input::read(json, deck, file, "", problems);
+    if (!has_card) { // whose law nobody knows
+        std::erase_if(problems, [](const auto& p) {
+            return p.path.starts_with("/material/") && p.suggestion.find("belongs to law") != p.suggestion.npos;
+        });
+    }
     check_recipe(deck.specimen, file, "/specimen", problems);
     check_card(deck.material.values, file, "/material", problems);
     for (std::size_t k = 0; k < deck.regions.size(); ++k) {

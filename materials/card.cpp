@@ -137,11 +137,19 @@ void check_envelope(const double (&lcs)[3], const std::string& source, const std
 
 } // namespace
 
+std::vector<input::Choice> card_statuses() {
+    return {{"measured", "each number was measured by itself"},
+            {"published", "as a paper prints it"},
+            {"calibrated", "fitted to measurements of whole specimens"},
+            {"provisional", "fitted to estimates, or not finished"},
+            {"user", "made by whoever uses it"}};
+}
+
 void declare(input::Visitor& v, Card& c) {
     v.text("name", c.name, "name of the parameter set");
     v.text("about", c.about, "what it stands for");
     v.text("source", c.source, "where its numbers come from");
-    v.text("status", c.status, "measured, published, calibrated, provisional or user");
+    v.choice("status", c.status, card_statuses(), "what stands behind it");
     v.choice("law", c.law, law_choices(),
              "constitutive law of the bonds; with another law than the card's its parameters start from the law's defaults");
     use_law(c);

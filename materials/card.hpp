@@ -41,6 +41,9 @@ struct Card {
 
 void declare(input::Visitor& v, Card& card);
 
+/// What a card may call itself.
+std::vector<input::Choice> card_statuses();
+
 /// The numbers of a card as the physics wants them; strength_factor multiplies the law's strengths. An area_factor "auto" is left at
 /// 1: only a specimen tells it.
 Material to_material(const Card& card);

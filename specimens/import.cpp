@@ -21,6 +21,7 @@ namespace {
 
 constexpr double widest = 100.0;      // m, as of a recipe
 constexpr double least_filled = 0.25; // of the shape, by the spheres of a packing
+constexpr double empty = 0.01;        // of the shape: less is no packing at all
 
 // Cyclic change of axes, so that handedness is kept.
 Vec3 turned(const Vec3& p, char axis) {
@@ -231,6 +232,11 @@ Imported import_specimen(const std::string& file, const ImportOptions& o) {
     if (matter > out.shape.volume()) {
         fail(fmt::format("the spheres' volumes are {:.4g} of the {} that they should fill{}", matter / out.shape.volume(), out.shape.text(),
                          "; if the sizes are diameters or stand in another column: --columns x,y,z,d"));
+    }
+    if (matter < empty * out.shape.volume() && spheres.size() > 10) {
+        fail(fmt::format("the spheres fill {:.2g} of the {}, where packings fill 0.5 to 0.8: their sizes are in another unit than their "
+                         "places, or are diameters or radii of something else",
+                         matter / out.shape.volume(), out.shape.text()));
     }
 
     result.notes = std::move(found.notes);

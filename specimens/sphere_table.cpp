@@ -22,6 +22,7 @@ using input::MatchedColumn;
 using input::Unit;
 using input::WantedColumn;
 
+constexpr std::size_t most_named = 8; // lines with a fault
 constexpr const char* ways = "say what the columns are: --columns x,y,z,r (d: diameter, -: not used)";
 
 struct SphereColumns {
@@ -82,6 +83,19 @@ SphereColumns by_order(const input::TextTable& table) {
         throw std::runtime_error(fmt::format("{}: {} columns without headings where x y z r, and perhaps a group, are expected{}; {}",
                                              table.file(), width, table.passed_over().empty() ? "" : "; " + table.passed_over(), ways));
     }
+    const auto& first = table.numbers(0);
+    const auto counts = [&] {
+        for (std::size_t k = 0; k < first.size(); ++k) {
+            if (first[k] != first[0] + static_cast<double>(k)) {
+                return false;
+            }
+        }
+        return first.size() > 2 && first[0] == std::floor(first[0]);
+    };
+    if (counts()) {
+        throw std::runtime_error(
+            fmt::format("{}: no headings, and the first column counts the rows: is it a number? {}", table.file(), ways));
+    }
     const auto positive = [&](std::size_t c) {
         const auto& values = table.numbers(c);
         return std::all_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
@@ -98,7 +112,7 @@ SphereColumns by_order(const input::TextTable& table) {
     }
     SphereColumns out{MatchedColumn{0, 1.0, ""}, MatchedColumn{1, 1.0, ""}, MatchedColumn{2, 1.0, ""}, MatchedColumn{3, 1.0, ""}, {}, {}};
     if (width == 5) {
-        out.group = MatchedColumn{4, 1.0, ""};
+        out.group = MatchedColumn{4, 1.0, "read column 5 as cohesive group"};
     }
     return out;
 }
@@ -152,7 +166,7 @@ ReadSpheres read_sphere_table(const std::string& file, const std::string& column
         }
     }
     const auto values = [&](const MatchedColumn& c) {
-        auto numbers = table.numbers(c.index);
+        auto numbers = table.values(c.index);
         const double by = out.in_metres && table.columns()[c.index].unit.empty() ? factor : c.factor;
         for (double& v : numbers) {
             v *= by;
@@ -170,22 +184,34 @@ ReadSpheres read_sphere_table(const std::string& file, const std::string& column
     const auto y = values(*found.y);
     const auto z = values(*found.z);
     const auto r = values(size);
-    const auto group = found.group ? table.numbers(found.group->index) : std::vector<double>(table.rows(), 0.0);
+    const auto group = found.group ? values(*found.group) : std::vector<double>(table.rows(), 0.0);
     out.spheres.reserve(table.rows());
+    const auto fault = [&](std::size_t k) {
+        for (const auto& [value, column] :
+             {std::pair{x[k], found.x->index}, {y[k], found.y->index}, {z[k], found.z->index}, {r[k], size.index}}) {
+            if (!std::isfinite(value)) {
+                return table.is_text(k, column) ? fmt::format("\"{}\" is no number", table.cell(k, column).substr(0, 40))
+                                                : std::string("a place or a size is missing");
+            }
+        }
+        return r[k] <= 0.0 ? fmt::format("{} {:.6g} is not positive", found.r ? "radius" : "diameter", r[k])
+                           : fmt::format("\"{}\" is no number of a group; {}", table.cell(k, found.group->index), ways);
+    };
+    std::vector<std::string> wrong;
     for (std::size_t k = 0; k < table.rows(); ++k) {
-        const auto fail = [&](const std::string& what) {
-            throw std::runtime_error(fmt::format("{}: line {}: {}", file, table.line(k), what));
-        };
-        if (!std::isfinite(x[k] + y[k] + z[k] + r[k])) {
-            fail("a place or a size is missing");
+        const bool whole = group[k] == std::floor(group[k]) && std::fabs(group[k]) <= std::numeric_limits<int>::max();
+        if (std::isfinite(x[k] + y[k] + z[k]) && r[k] > 0.0 && std::isfinite(r[k]) && whole) {
+            out.spheres.push_back({{x[k], y[k], z[k]}, half * r[k], static_cast<int>(group[k]), static_cast<long long>(table.line(k))});
+            continue;
         }
-        if (!(r[k] > 0.0)) {
-            fail(fmt::format("{} {:.6g} is not positive", found.r ? "radius" : "diameter", r[k]));
+        wrong.push_back(fmt::format("line {}: {}", table.line(k), fault(k)));
+        if (wrong.size() == most_named) {
+            wrong.emplace_back("...");
+            break;
         }
-        if (group[k] != std::floor(group[k]) || std::fabs(group[k]) > std::numeric_limits<int>::max()) {
-            fail(fmt::format("\"{}\" is no number of a group; {}", table.cell(k, found.group->index), ways));
-        }
-        out.spheres.push_back({{x[k], y[k], z[k]}, half * r[k], static_cast<int>(group[k]), static_cast<long long>(table.line(k))});
+    }
+    if (!wrong.empty()) {
+        throw std::runtime_error(fmt::format("{}: {}", file, fmt::join(wrong, "; ")));
     }
     return out;
 }

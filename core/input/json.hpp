@@ -61,7 +61,8 @@ class JsonReader : public Visitor {
     JsonReader(const Json& json, std::string source, std::string path, Problems& problems);
     void finish(); ///< reports unknown keys of the outermost object
     [[nodiscard]] bool met_unknown_keys() const { return !unknown_.empty(); }
-    /// Says of keys that were called unknown, and that some choice would have a use for, which choice there is. all: what may be declared.
+    /// Says of keys that were called unknown, and that some choice would have a use for, which choice there is; of those beside a choice
+    /// that is none, nothing. all: what may be declared.
     void explain_unknown(const std::vector<ParameterInfo>& all);
 
     void number(const char*, double&, Unit, const Bounds&, const char*) override;
@@ -85,11 +86,13 @@ class JsonReader : public Visitor {
         std::string path;
         std::vector<std::string> known;
         std::vector<std::string> chosen{}; // of the keys with a choice, such as "kind": "fixed"
+        bool unsure = false;               // a choice is none of those there are: nobody knows which keys go with it
     };
     struct Unknown { // key, and the problem that it was made
         std::size_t problem;
         std::string key; // as ParameterInfo has it
         std::vector<std::string> chosen;
+        bool unsure;
     };
     const Json* find(const char* key);
     void complain(const std::string& path, const std::string& found, const std::string& expected, const std::string& suggestion = "");

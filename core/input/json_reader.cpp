@@ -176,6 +176,7 @@ void JsonReader::choice(const char* key, std::string& value, const std::vector<C
     const std::string text = j->is_string() ? j->get<std::string>() : "";
     if (!j->is_string() || std::none_of(choices.begin(), choices.end(), [&](const Choice& c) { return c.name == text; })) {
         complain(frames_.back().path + "/" + key, shown(*j), "one of " + names(choices), nearest_choice(text, choices));
+        frames_.back().unsure = true;
         return;
     }
     value = text;
@@ -237,7 +238,7 @@ void JsonReader::report_unknown() {
             continue;
         }
         const std::string at = frame.path.substr(frames_.front().path.size()) + "/" + key;
-        unknown_.push_back({problems_.size(), dotted(at), frame.chosen});
+        unknown_.push_back({problems_.size(), dotted(at), frame.chosen, frame.unsure});
         const std::string best = nearest(key, frame.known);
         complain(frame.path + "/" + key.substr(0, 80), "an unknown key", fmt::format("one of {}", fmt::join(frame.known, ", ")),
                  best.empty() ? "" : fmt::format("did you mean \"{}\"?", best));
@@ -245,14 +246,21 @@ void JsonReader::report_unknown() {
 }
 
 void JsonReader::explain_unknown(const std::vector<ParameterInfo>& all) {
-    for (const auto& [problem, key, chosen] : unknown_) {
-        const auto same = [&, name = key](const ParameterInfo& p) { return p.path == name; };
+    for (auto unknown = unknown_.rbegin(); unknown != unknown_.rend(); ++unknown) { // the last first, so that places stay what they are
+        const auto same = [&](const ParameterInfo& p) { return p.path == unknown->key; };
         const auto declared = std::find_if(all.begin(), all.end(), same);
-        if (declared != all.end() && !chosen.empty()) {
-            Problem& p = problems_[problem];
-            p.found = fmt::format("a key that nothing looks at with {}: {}", fmt::join(chosen, ", "), declared->meaning);
-            p.suggestion = "choose otherwise, or leave it out";
+        if (declared == all.end()) {
+            continue;
         }
+        if (unknown->unsure) {
+            problems_.erase(problems_.begin() + static_cast<std::ptrdiff_t>(unknown->problem));
+            continue;
+        }
+        const auto& chosen = unknown->chosen;
+        Problem& p = problems_[unknown->problem];
+        p.found = fmt::format("a key that nothing looks at {}: {}",
+                              chosen.empty() ? "beside the others" : fmt::format("with {}", fmt::join(chosen, ", ")), declared->meaning);
+        p.suggestion = "choose otherwise, or leave it out";
     }
 }
 

@@ -1,5 +1,6 @@
 #include "core/input/text_file.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <boost/locale/encoding_errors.hpp>
@@ -83,6 +84,24 @@ std::string as_utf8(std::string text, const std::string& file) {
         return boost::locale::conv::utf_to_utf<char>(wide, boost::locale::conv::stop);
     } catch (const boost::locale::conv::conversion_error&) {
         throw std::runtime_error(file + ": begins as UTF-16 and is cut short or broken");
+    }
+}
+
+std::string utf8_of_latin1(std::string text) {
+    const auto beyond = [](char c) { return static_cast<unsigned char>(c) >= 0x80; };
+    if (std::none_of(text.begin(), text.end(), beyond)) {
+        return text;
+    }
+    try {
+        (void)boost::locale::conv::utf_to_utf<char32_t>(text, boost::locale::conv::stop);
+        return text;
+    } catch (const boost::locale::conv::conversion_error&) {
+        std::u32string wide;
+        for (const char c : text) {
+            const auto byte = static_cast<unsigned char>(c);
+            wide += byte == 0x89 ? U'\u2030' : static_cast<char32_t>(byte);
+        }
+        return boost::locale::conv::utf_to_utf<char>(wide);
     }
 }
 

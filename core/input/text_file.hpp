@@ -19,4 +19,8 @@ void require_size(const std::string& file, std::uintmax_t most);
 /// broken.
 std::string as_utf8(std::string text, const std::string& file);
 
+/// Text that is no UTF-8, as older measuring programs and spreadsheets write it, taken for Latin-1 (Windows-1252 where it has a sign of its
+/// own for per mille) and made UTF-8; UTF-8 stays as it is.
+std::string utf8_of_latin1(std::string text);
+
 } // namespace proveta::input

@@ -40,9 +40,10 @@ void TextTable::split(std::string_view text, std::size_t line, std::vector<std::
 }
 
 TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(file)), text_(read_text(file_, most)) {
-    text_ = as_utf8(std::move(text_), file_);
+    text_ = utf8_of_latin1(as_utf8(std::move(text_), file_));
     std::vector<std::string_view> sample;
     std::vector<std::size_t> first; // their numbers, from 1
+    std::string_view comment;       // the last before the first of them
     std::size_t number = 0;
     for (std::size_t at = 0; at < text_.size() && sample.size() < looked_at;) {
         const auto line = take_line(text_, at);
@@ -50,6 +51,8 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
         if (!is_comment(line)) {
             sample.push_back(line);
             first.push_back(number);
+        } else if (sample.empty() && line.find('#') != line.npos) {
+            comment = line.substr(line.find('#') + 1);
         }
     }
     dialect_ = dialect_of(sample);
@@ -97,6 +100,12 @@ TextTable::TextTable(std::string file, std::uintmax_t most) : file_(std::move(fi
     std::vector<std::vector<std::string_view>> above;
     for (std::size_t k = names_end; k > 0 && is_heading(rows[k - 1]) && above.size() < 2; --k) {
         above.insert(above.begin(), rows[k - 1]);
+    }
+    if (above.empty() && begin == 0 && width > 1 && !comment.empty()) { // headings as NumPy writes them
+        std::vector<std::string_view> named;
+        if (dialect_.split(comment, named) && is_heading(named)) {
+            above.push_back(named);
+        }
     }
     columns_.resize(width);
     name_columns(above);
@@ -184,6 +193,11 @@ std::string_view TextTable::cell(std::size_t row, std::size_t column) const {
     std::vector<std::string_view> cells;
     split(take_line(text_, at), line_[row], cells);
     return cells[column];
+}
+
+bool TextTable::is_text(std::size_t row, std::size_t column) const {
+    double value = 0.0;
+    return dialect_.kind(cell(row, column), value) == Cell::text;
 }
 
 void TextTable::name_columns(const std::vector<std::vector<std::string_view>>& above) {

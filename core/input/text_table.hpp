@@ -37,11 +37,15 @@ class TextTable {
     [[nodiscard]] std::size_t line(std::size_t row) const { return line_[row]; }
     /// What is written in a cell; its line is looked at again.
     [[nodiscard]] std::string_view cell(std::size_t row, std::size_t column) const;
+    /// Whether a cell is neither a number nor missing.
+    [[nodiscard]] bool is_text(std::size_t row, std::size_t column) const;
     /// Whether most of a column's cells are numbers.
     [[nodiscard]] bool is_number(std::size_t column) const { return numeric_[column]; }
 
     /// A column's numbers; missing cells are NaN. Throws std::runtime_error naming the line of a cell that is neither.
     [[nodiscard]] const std::vector<double>& numbers(std::size_t column) const;
+    /// The same; cells that are neither are NaN, too.
+    [[nodiscard]] const std::vector<double>& values(std::size_t column) const { return values_[column]; }
 
     /// Index of a column by its heading, its name without unit, or its number from 1. Throws std::runtime_error when there is none, naming
     /// those that there are, or when two have that heading.

@@ -91,7 +91,7 @@ void declare(input::Visitor& v, ConfidenceInput& c) {
 void declare(input::Visitor& v, CardInput& c) {
     v.text("name", c.name, "name of the card that is written");
     v.text("about", c.about, "what it is a card of");
-    v.text("status", c.status, "\"provisional\" until measured curves stand behind it");
+    v.choice("status", c.status, card_statuses(), "\"provisional\" until measured curves stand behind it");
 }
 
 void declare(input::Visitor& v, CalibrationInput& c) {
@@ -155,9 +155,18 @@ CalibrationPlan read_calibration(const std::string& file) {
         plan.space = ParameterSpace(in.parameters, decks, file, problems);
     }
     std::vector<std::string> curves;
+    std::vector<std::string> names; // also of tests whose decks are wrong
+    for (const auto& test : plan.written.value("tests", Json::array())) {
+        names.push_back(input::text_at(test, "name"));
+    }
     for (std::size_t k = 0; k < in.targets.size(); ++k) {
         auto& t = in.targets[k];
-        check_target(t, fmt::format("/targets/{}", k), plan.tests, file, problems);
+        check_target(t, fmt::format("/targets/{}", k), names, file, problems);
+        const auto same = [&](const TargetInput& other) { return !t.is_curve() && other.test == t.test && other.result == t.result; };
+        if (const auto first = std::find_if(in.targets.begin(), in.targets.end(), same); first - in.targets.begin() < std::ptrdiff_t(k)) {
+            problems.push_back({file, fmt::format("/targets/{}/result", k), fmt::format("{} of {} again", t.result, t.test),
+                                "each result of a test once", "of several measurements take the mean, and their scatter as tolerance"});
+        }
         check_result(t, plan.written["targets"][k], fmt::format("/targets/{}", k), plan.tests, file, problems);
         if (t.is_curve()) {
             t.curve = (std::filesystem::absolute(plan.source).parent_path() / t.curve).lexically_normal().string();

@@ -46,7 +46,9 @@ void refuse(const std::string& what, char key, double now, double times) {
 }
 
 // Sign and size of one quantity.
-void check_quantity(const std::vector<double>& v, const std::string& quantity, const std::string& test, char key, double now) {
+// factor: that makes the size one that can be.
+void check_quantity(const std::vector<double>& v, const std::string& quantity, const std::string& test, char key, double now,
+                    const std::optional<double>& factor) {
     const double most = largest(v);
     const bool girth = quantity == "circumferential_strain";
     const bool either = quantity == "volumetric_strain"; // smaller first, and larger where it dilates
@@ -62,7 +64,7 @@ void check_quantity(const std::vector<double>& v, const std::string& quantity, c
     const double size = std::fabs(most);
     if (size > 0.0 && !range.holds(size)) {
         const char* unit = is_stress(quantity) ? " Pa" : "";
-        if (const auto factor = range.factor_for(size)) {
+        if (factor) {
             refuse(fmt::format("{} goes to {:.4g}{}, while a {} test's lies between {:.4g} and {:.4g}", plain(quantity), most, unit, test,
                                range.low, range.high),
                    key, now, *factor);
@@ -100,9 +102,61 @@ std::string check_modulus(const SampledCurve& c, const TargetInput& t, const std
     throw std::runtime_error(what);
 }
 
+// The factor that makes strains ones that can be, of which the modulus is nearest to the card's where stresses go over them.
+std::optional<double> factor_of_strain(const SampledCurve& c, const TargetInput& t, const Plausible& range, double young) {
+    std::optional<double> best = range.factor_for(std::fabs(largest(c.x)));
+    const auto slope = is_stress(t.y) ? slope_between(c.x, c.y, 0.1, 1.0 / 3.0) : std::nullopt;
+    if (!slope || !(*slope > 0.0) || young <= 0.0) {
+        return best;
+    }
+    const auto off = [&](double f) { return std::fabs(std::log(*slope / f / young)); };
+    for (const double f : range.factors) {
+        if (best && range.holds(f * std::fabs(largest(c.x))) && off(f) < off(*best)) {
+            best = f;
+        }
+    }
+    return best;
+}
+
+// One value that lies far beyond all others is a reader's "no value" or a spike, and no unit.
+void refuse_outlier(const std::vector<double>& v, const std::string& quantity) {
+    constexpr double far = 20.0;
+    std::vector<double> sizes;
+    for (const double x : v) {
+        sizes.push_back(std::fabs(x));
+    }
+    const auto worst = static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    std::vector<double> rest = sizes;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(worst));
+    if (rest.size() < 5) {
+        return;
+    }
+    const double next = *std::max_element(rest.begin(), rest.end());
+    if (next > 0.0 && sizes[worst] > far * next) {
+        throw std::runtime_error(
+            fmt::format("{} is {:.6g} in point {} and at most {:.4g} in all others: a missing value, or a spike? Leave its "
+                        "cell empty",
+                        plain(quantity), v[worst], worst + 1, next));
+    }
+}
+
+// A curve that begins away from the origin, where a test begins.
+std::string begins_elsewhere(const SampledCurve& c, const TargetInput& t) {
+    const double x = std::fabs(c.x.front() / largest(c.x));
+    const double y = std::fabs(c.y.front() / largest(c.y));
+    constexpr double near = 0.1;
+    if (!is_stress(t.y) || (x <= near && y <= near)) {
+        return "";
+    }
+    return fmt::format("the curve begins at {} {:.4g} and {} {:.4g} MPa, where a test begins at 0 and 0: \"x_offset\" and a stress without "
+                       "the load that it began under make it so",
+                       plain(t.x), c.x.front(), plain(t.y), 1e-6 * c.y.front());
+}
+
 // Strains where stresses should be, and the other way round.
 void check_swapped(const SampledCurve& c, const TargetInput& t, const std::string& test) {
-    if (is_stress(t.y) && largest(c.x) > plausible(t.x, test).high && largest(c.y) < plausible(t.x, test).high) {
+    const double strain = plausible(t.x, test).high;
+    if (is_stress(t.y) && largest(c.x) > strain && std::min(largest(c.y), largest(c.y) / t.y_factor) < strain) {
         throw std::runtime_error(fmt::format("{} goes to {:.4g} and {} to {:.4g} Pa: is x_column the stress and y_column the strain?",
                                              plain(t.x), largest(c.x), plain(t.y), largest(c.y)));
     }
@@ -126,9 +180,13 @@ std::optional<Plausible> plausible_result(const report::Scalar& result, const st
 
 std::string check_plausible(const SampledCurve& curve, const TargetInput& t, const std::string& test, double young) {
     check_swapped(curve, t, test);
-    check_quantity(curve.x, t.x, test, 'x', t.x_factor);
-    check_quantity(curve.y, t.y, test, 'y', t.y_factor);
-    return check_modulus(curve, t, test, young);
+    refuse_outlier(curve.x, t.x);
+    refuse_outlier(curve.y, t.y);
+    check_quantity(curve.x, t.x, test, 'x', t.x_factor, factor_of_strain(curve, t, plausible(t.x, test), young));
+    check_quantity(curve.y, t.y, test, 'y', t.y_factor, plausible(t.y, test).factor_for(std::fabs(largest(curve.y))));
+    const std::string modulus = check_modulus(curve, t, test, young);
+    const std::string start = begins_elsewhere(curve, t);
+    return modulus.empty() || start.empty() ? modulus + start : modulus + "; " + start;
 }
 
 } // namespace proveta

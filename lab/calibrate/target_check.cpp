@@ -27,9 +27,32 @@ bool may_be_negative(const std::string& result) {
     return false;
 }
 
+// What a test's own deck says against a value that it should come to; empty: nothing.
+std::string against_deck(const TargetInput& t, const Json& deck, const std::string& unit) {
+    const auto number = [&](const char* path) {
+        const Json::json_pointer at(path);
+        return deck.contains(at) && deck[at].is_number() ? deck[at].get<double>() : 0.0;
+    };
+    const double end = number("/loading/stop/axial_strain");
+    if (end > 0.0 && t.result == "strain_at_peak" && t.value > end) {
+        return fmt::format("a strain before loading.stop.axial_strain, {:.4g}, where the test ends", end);
+    }
+    const double pressure = number("/loading/confining_pressure");
+    if (t.result == "strength" && t.value <= pressure) {
+        return fmt::format("a total stress, which is above the confining pressure of {:.4g} MPa", 1e-6 * pressure);
+    }
+    constexpr double unlike = 300.0; // a card may be far from the material yet; a thousand is a unit
+    const double young = number("/material/young_modulus");
+    if (t.result == "young_modulus" && young > 0.0 && (t.value > unlike * young || t.value < young / unlike)) {
+        return fmt::format("a modulus in {} as the deck's card has it, {:.4g} GPa; this is {:.2g} times that", unit, 1e-9 * young,
+                           t.value / young);
+    }
+    return "";
+}
+
 } // namespace
 
-void check_target(const TargetInput& t, const std::string& at, const std::vector<TrialTest>& tests, const std::string& file,
+void check_target(const TargetInput& t, const std::string& at, const std::vector<std::string>& tests, const std::string& file,
                   input::Problems& problems) {
     const auto complain = [&](const char* key, const std::string& found, const std::string& expected, const std::string& hint = "") {
         const std::string path = at + key; // a value that could not be read has been complained of, and is not there
@@ -37,12 +60,8 @@ void check_target(const TargetInput& t, const std::string& at, const std::vector
             problems.push_back({file, path, found, expected, hint});
         }
     };
-    std::vector<std::string> names;
-    for (const auto& test : tests) {
-        names.push_back(test.name);
-    }
-    if (std::find(names.begin(), names.end(), t.test) == names.end()) {
-        complain("/test", "\"" + t.test + "\"", fmt::format("the name of a test: {}", fmt::join(names, ", ")));
+    if (std::find(tests.begin(), tests.end(), t.test) == tests.end()) {
+        complain("/test", "\"" + t.test + "\"", fmt::format("the name of a test: {}", fmt::join(tests, ", ")));
     }
     if (t.is_curve() == !t.result.empty()) {
         complain("", t.is_curve() ? "a result and a curve" : "neither result nor curve", "one of \"result\" with \"value\", and \"curve\"");
@@ -56,6 +75,13 @@ void check_target(const TargetInput& t, const std::string& at, const std::vector
     if (t.is_curve() && t.y.empty()) {
         complain("/y", "nothing", "what the curve shows: \"total_stress\", \"deviatoric_stress\" or a strain",
                  "total and deviatoric stress differ by the confining pressure");
+    }
+    if (t.is_curve() && t.x_offset != 0.0 && t.toe == "removed") {
+        complain("/x_offset", fmt::format("{:.6g} beside \"toe\": \"removed\"", t.x_offset),
+                 "one of the two, both of which take off strain");
+    }
+    if (t.is_curve() && t.from.word.empty() && t.to.word.empty() && !(t.from.number < t.to.number)) {
+        complain("/from", fmt::format("{:.6g}, to {:.6g}", t.from.number, t.to.number), "from below to");
     }
     if (t.is_curve() && t.y == t.x) {
         complain("/y", "\"" + t.y + "\" over itself", "another quantity than x");
@@ -116,16 +142,21 @@ void check_result(const TargetInput& t, const Json& written, const std::string& 
     }
     const auto range = plausible_result(*result, input::text_at(test->deck, "test"));
     const double size = std::fabs(t.value);
+    const bool wide = t.result == "poisson_ratio" && size < 1.0; // no per cent, and none of a material
     if (range && !range->holds(size)) {
         const std::string si = result->unit.empty() ? "" : " " + result->unit;
         std::string hint;
-        if (const auto factor = range->factor_for(size)) {
+        if (const auto factor = range->factor_for(size); factor && !wide) {
             const double meant = *factor * t.value;
             hint = fmt::format("did you mean {}?", result->unit.empty() ? fmt::format("{:.6g}", meant)
                                                                         : "\"" + input::format_quantity(meant, *dimension) + "\"");
         }
         problems.push_back({file, at + "/value", fmt::format("{:.6g}{}", t.value, si),
                             fmt::format("a {} of {:.3g} to {:.3g}{}, as materials have it", t.result, range->low, range->high, si), hint});
+        return;
+    }
+    if (const std::string wrong = against_deck(t, test->deck, result->unit); !wrong.empty()) {
+        problems.push_back({file, at + "/value", value.empty() ? fmt::format("{:.6g}", t.value) : "\"" + value + "\"", wrong, ""});
     }
 }
 

@@ -8,8 +8,8 @@
 
 namespace proveta {
 
-/// Appends what is wrong with the keys of a target. at: its JSON pointer.
-void check_target(const TargetInput& target, const std::string& at, const std::vector<TrialTest>& tests, const std::string& file,
+/// Appends what is wrong with the keys of a target. at: its JSON pointer; tests: their names as the file has them.
+void check_target(const TargetInput& target, const std::string& at, const std::vector<std::string>& tests, const std::string& file,
                   input::Problems& problems);
 
 /// Appends what is wrong with a target's result and value: a result that the test cannot have, or a value of another unit, size or sign

@@ -250,7 +250,17 @@ std::unique_ptr<SurfaceMotion> untimed(const MotionInput& m, const std::string& 
 
 void check_motion(const MotionInput& m, double duration, const std::string& folder, const std::string& source, const std::string& path,
                   input::Problems& problems) {
+    if (m.begin >= duration && m.kind != "fixed") {
+        problems.push_back({source, path + "/begin", fmt::format("{:.6g} s", m.begin),
+                            fmt::format("a time before the scene's end, {:.6g} s", duration), ""});
+    }
     if (m.kind == "expression") {
+        const auto zero = [](const std::string& text) { return text == "0"; };
+        if (std::all_of(std::begin(m.velocity_of_time), std::end(m.velocity_of_time), zero) &&
+            std::all_of(std::begin(m.spin_of_time), std::end(m.spin_of_time), zero)) {
+            problems.push_back({source, path, "an expression for none of its components", "velocity_x to spin_z, one of them at least",
+                                "what stands still is \"kind\": \"fixed\""});
+        }
         constexpr const char* names[] = {"velocity", "spin"};
         for (int k = 0; k < 6; ++k) {
             const std::string& text = k < 3 ? m.velocity_of_time[k] : m.spin_of_time[k - 3];
@@ -272,7 +282,10 @@ void check_motion(const MotionInput& m, double duration, const std::string& fold
     }
     if (m.kind == "table") {
         try {
-            read_places(path_of(m.file, folder));
+            if (const double first = read_places(path_of(m.file, folder)).t.front(); first >= duration) {
+                problems.push_back({source, path + "/file", fmt::format("\"{}\", which begins at {:.6g} s", m.file, first),
+                                    fmt::format("a table that begins before the scene's end, {:.6g} s", duration), ""});
+            }
         } catch (const std::exception& error) {
             problems.push_back({source, path + "/file", "\"" + m.file + "\"", "a table of places over time", error.what()});
         }

@@ -79,14 +79,25 @@ ScenePlay::ScenePlay(const Scene& scene) : scene_(scene), feed_(scene), mean_rad
               fmt::format("at most {:.4g} s, {:.0g} steps: no end is in sight of more", most_steps * model_->dt(), most_steps),
               "less time, or a softer young_modulus or larger particles, which make longer steps"}});
     }
-    refuse_fast_surfaces();
+    refuse_fast();
     model_->set_skin(numerics.skin * mean_radius_); // the first particles may be none, or the smallest
 }
 
-// A surface that will be too fast for the step as it is now, seen at a thousand moments; what these miss is seen as it moves.
-void ScenePlay::refuse_fast_surfaces() const {
+// Particles that come too fast for the step as it is now, and surfaces that will be, seen at a thousand moments; what these miss is seen as
+// they move.
+void ScenePlay::refuse_fast() const {
     constexpr int moments = 1000;
     input::Problems problems;
+    const double most = longest_way * mean_radius_ / model_->dt();
+    for (std::size_t k = 0; k < scene_.particles.size(); ++k) {
+        if (const double speed = vector(scene_.particles[k].velocity).norm(); speed > most) {
+            problems.push_back(
+                {scene_.source, fmt::format("/particles/{}/velocity", k),
+                 fmt::format("{:.3g} m/s, {:.3g} m in a step of {:.3g} s", speed, speed * model_->dt(), model_->dt()),
+                 fmt::format("at most {:.2g} mean radii in a step, {:.3g} m/s: who is faster might pass through others", longest_way, most),
+                 "less speed, or a shorter numerics.time_step"});
+        }
+    }
     for (std::size_t k = 0; k < motions_.size(); ++k) {
         const Surface& surface = model_->walls.surfaces[k];
         double fastest = 0.0;

@@ -33,7 +33,7 @@ class ScenePlay {
 
   private:
     void choose_skin();
-    void refuse_fast_surfaces() const;
+    void refuse_fast() const;
 
     const Scene& scene_;
     Feed feed_;

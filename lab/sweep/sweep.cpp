@@ -173,6 +173,12 @@ Sweep read_sweep(const std::string& file) {
     if (sweep.input.design != "grid") {
         refuse_levels(json, design, file, problems);
     }
+    for (std::size_t k = 0; k < sweep.input.parameters.size(); ++k) {
+        if (!sweep.input.parameters[k].values.empty()) {
+            refuse_keys(json["parameters"][k], fmt::format("/parameters/{}", k), {"low", "high", "levels"}, "its levels are its \"values\"",
+                        file, problems);
+        }
+    }
     std::vector<Json> decks;
     for (const auto& test : sweep.tests) {
         decks.push_back(test.deck);

@@ -1,6 +1,7 @@
 #include "lab/trials/parameters.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,10 +134,13 @@ void check_units(const Json& json, const std::vector<Parameter>& parameters, con
     for (std::size_t k = 0; k < parameters.size(); ++k) {
         const Parameter& p = parameters[k];
         const auto with = std::find_if(tests.begin(), tests.end(), [&](const TrialTest& t) { return has(t.deck, p.path); });
-        if (with == tests.end() || !p.times.empty()) { // a multiple has a unit of its own, or none
+        if (with == tests.end()) {
             continue;
         }
-        const auto dimension = input::dimension_of(unit_of(p.path, input::text_at(with->deck, "test")));
+        auto dimension = input::dimension_of(unit_of(p.path, input::text_at(with->deck, "test")));
+        if (!p.times.empty()) { // a factor
+            dimension = Unit::none;
+        }
         const Json& written = json["parameters"][k];
         const auto look = [&](const Json& value, const std::string& key) {
             if (!value.is_string() || !dimension) {
@@ -148,7 +152,9 @@ void check_units(const Json& json, const std::vector<Parameter>& parameters, con
             if (const auto found = input::parse_quantity(text, *dimension); !found.problem.empty() && !said) {
                 const std::string si = input::si_unit(*dimension);
                 problems.push_back({file, at, "\"" + text + "\", " + found.problem,
-                                    fmt::format("a value for {}, {}", p.path, si.empty() ? "which has no unit" : "in " + si), ""});
+                                    fmt::format("a {} for {}, {}", p.times.empty() ? "value" : "factor", p.path,
+                                                si.empty() ? "which has no unit" : "in " + si),
+                                    ""});
             }
         };
         look(written.value("low", Json()), "low");
@@ -189,9 +195,10 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vec
         }
         const auto with =
             std::find_if(decks.begin(), decks.end(), [&](const Json& d) { return has(d, p.path) && may_be_number(d[pointer_of(p.path)]); });
-        if (with == decks.end()) {
+        const bool text = with != decks.end() && (*with)[pointer_of(p.path)].is_string();
+        const std::string why = with == decks.end() || text ? why_not(p.path, decks, source) : "";
+        if (with == decks.end() || p.path.find('/') != std::string::npos || (text && !why.empty())) {
             const std::string best = input::nearest(p.path, known);
-            const std::string why = why_not(p.path, decks, source);
             complain("/path", "\"" + p.path + "\"", "the dotted path of a number in the decks",
                      !why.empty()   ? why
                      : best.empty() ? ""
@@ -201,7 +208,13 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vec
             const auto [low, high] = std::minmax_element(p.values.begin(), p.values.end());
             p.low = *low;
             p.high = *high;
-        } else if (!(p.low < p.high)) {
+            auto sorted = p.values;
+            std::sort(sorted.begin(), sorted.end());
+            if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+                complain("/values", fmt::format("{}", fmt::join(p.values, ", ")), "values that differ");
+            }
+        } else if (!(p.low < p.high) && std::none_of(problems.begin(), problems.end(),
+                                                     [&](const auto& q) { return q.path == at + "/low" || q.path == at + "/high"; })) {
             complain("", fmt::format("low {:.6g}, high {:.6g}", p.low, p.high), "low below high");
         }
         if (p.scale == "log" && !(p.low > 0.0)) {

@@ -101,6 +101,10 @@ std::vector<std::int64_t> seeds_of(const TrialTest& test, const TestKeys& keys, 
         return {test.deck["specimen"]["seed"].get<std::int64_t>()};
     }
     for (const double seed : keys.seeds) {
+        if (std::find(out.begin(), out.end(), std::llround(seed)) != out.end()) {
+            problems.push_back({places.file, places.at + "/seeds", fmt::format("{} again", seed), "seeds that differ",
+                                "the same seed makes the same specimen"});
+        }
         out.push_back(std::llround(seed));
     }
     const Json* own = value_at(test.written, "/specimen/seed");

@@ -243,6 +243,39 @@ TEST_CASE("calibration: targets and bounds of another size, sign or unit than th
     CHECK(problem(R"({"path": "material.mu_s", "low": "10 deg", "high": 0.9})", R"("result": "strength", "value": "30 MPa")").path ==
           "/parameters/0/low");
 
+    CHECK(target(R"("poisson_ratio", "value": 0.6)").suggestion.empty());
+    CHECK(target(R"("young_modulus", "value": "28 MPa")").expected.find("28 GPa") != std::string::npos);
+    CHECK(target(R"("strain_at_peak", "value": "3 %")").expected.find("where the test ends") != std::string::npos);
+    const auto factor = problems_in(folder.file(
+        "f.json", calibration(tau + R"(, {"path": "material.sigma_f", "low": "1 MPa", "high": "3 MPa", "times": "tau_f"})", strength)));
+    REQUIRE(factor.size() == 2);
+    CHECK(factor[0].path == "/parameters/1/low");
+    CHECK(factor[0].expected.find("a factor for material.sigma_f, which has no unit") != std::string::npos);
+
+    folder.write("mille.csv",
+                 "0,0\n0.1,2.8\n0.2,5.6\n0.3,8.4\n0.5,14\n1,28\n1.2,29\n1.4,28\n1.5,27\n"); // per mille: a hundredth would do, and be a
+                                                                                            // tenth as stiff
+    CHECK(problem(tau, R"("curve": "mille.csv", "y": "total_stress", "y_factor": 1e6)").found.find("\"x_factor\": 0.001") !=
+          std::string::npos);
+    folder.write("spike.csv", "0,0\n0.0001,2.8\n0.0005,14\n0.001,-9999\n0.0012,29\n0.0014,28\n0.0015,27\n");
+    CHECK(problem(tau, R"("curve": "spike.csv", "y": "total_stress", "y_factor": 1e6)").found.find("a missing value, or a spike") !=
+          std::string::npos);
+    folder.write("late.csv", "0.01,0\n0.0101,2.8\n0.0105,14\n0.011,28\n0.0112,29\n0.0114,28\n");
+    const auto late =
+        folder.file("l.json", calibration(tau, R"({"test": "ucs", "curve": "late.csv", "y": "total_stress", "y_factor": 1e6})"));
+    CHECK(make_targets(read_calibration(late)).at(0).file.warnings.at(0).find("the curve begins at") != std::string::npos);
+
+    const auto twice = problems_in(folder.file("2.json", calibration(tau, strength + ", " + strength)));
+    REQUIRE(twice.size() == 1);
+    CHECK(twice[0].path == "/targets/1/result");
+    const auto broken =
+        problems_in(folder.file("b.json", R"({"tests": [{"name": "ucs", "deck": {"test": "ucs", "loading": {"rate": "1 m"}}}],
+        "parameters": [)" + tau + R"(], "targets": [)" +
+                                              strength + R"(, {"test": "usc", "result": "strength", "value": "3 MPa"}]})"));
+    REQUIRE(broken.size() == 2); // the test that is there, if wrong, is known by its name
+    CHECK(broken[0].path == "/tests/0/deck/loading/rate");
+    CHECK(broken[1].path == "/targets/1/test");
+
     folder.write("swapped.csv", "0,0\n15e6,0.0005\n30e6,0.001\n");
     const auto swapped = problem(tau, R"("curve": "swapped.csv", "y": "total_stress")");
     CHECK(swapped.found.find("is x_column the stress") != std::string::npos);

@@ -86,6 +86,16 @@ TEST_CASE("a key that another choice has a use for says so, and which choice the
 TEST_CASE("sizes of another shape, regions outside and steps that nothing could be stable with are refused") {
     CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"width": 0.15}})"), "/specimen/width"));
     CHECK(has(problems_of(R"({"test": "ucs", "specimen": {"shape": "prism", "diameter": 0.15}})"), "/specimen/diameter"));
+    CHECK(has(problems_of(R"({"test": "ucs", "numerics": {"time_step": "1e-12 s"}})"), "/numerics/time_step"));
+    CHECK(has(problems_of(R"({"test": "ucs", "regions": [{"from": [-1, -1, 0], "to": [1, 1, 1], "material": {}}]})"), "/regions/0"));
+    const auto shape = problems_of(R"({"test": "ucs", "specimen": {"shape": "cube", "width": 0.1, "side": 0.1}})");
+    CHECK(has(shape, "/specimen/shape"));
+    CHECK(has(shape, "/specimen/side"));
+    CHECK(shape.size() == 2); // which shape's key the width is, nobody knows
+    const auto card = problems_of(R"({"test": "ucs", "material": {"card": "concrete_sfr", "tensile_strength": "2 MPaa"}})");
+    REQUIRE(!card.empty());
+    CHECK(
+        std::none_of(card.begin(), card.end(), [](const auto& p) { return p.suggestion.find("this card has law") != std::string::npos; }));
     const auto both = problems_of(R"({"test": "ucs", "regions": [{"from": [1, 1, 1], "to": [2, 2, 2], "group": 1}],
         "numerics": {"time_step": "1 ms"}})");
     CHECK(has(both, "/regions/0"));

@@ -112,6 +112,9 @@ TEST_CASE("a modulus off the card's is said with both figures, and why where its
     CHECK(speaks_of(of(20e9, elastic), "20 GPa"));
     CHECK(speaks_of(of(20e9, elastic), "28 GPa (-29 %)."));
     CHECK(speaks_of(of(20e9, lossy), "no longer elastic"));
+    const auto stiff = modulus_off(card, {{"young_modulus", "E", {}, "Pa", ""}, {"young_modulus_platens", "E", 56e12, "Pa", ""}},
+                                   {curve, elastic, none, shape, press});
+    CHECK(speaks_of(stiff, "56000 GPa"));
     card.elasticity = "as-given"; // the bonds' modulus and not the specimen's
     CHECK(of(20e9, elastic).empty());
 }
@@ -167,6 +170,15 @@ TEST_CASE("values of a deck that are likely to lack their unit are doubted, thos
     const auto light = of_deck(R"({"density": 2.5})");
     REQUIRE(light.size() == 1);
     CHECK(speaks_of(light[0], "\"2.5 g/cm3\"?"));
+    const auto strong = of_deck(R"({"tensile_strength": "2.8 GPa"})");
+    REQUIRE(strong.size() == 1);
+    CHECK(speaks_of(strong[0], "is only 10 times tensile_strength"));
+    const auto far = doubts_of(read_deck(input::Json::parse(R"({"test": "triaxial",
+        "loading": {"confining_pressure": "4.5 GPa", "stop": {"axial_strain": 0.5}}})"),
+                                         "deck.json"));
+    REQUIRE(far.size() == 2);
+    CHECK(speaks_of(far[0], "/loading/confining_pressure: 4.5 GPa is 0.16 of /material/young_modulus"));
+    CHECK(speaks_of(far[1], "/loading/stop/axial_strain: 0.5 is 50 %: is \"0.5 %\" meant?"));
     const auto deck = read_deck(input::Json::parse(R"({"test": "triaxial", "specimen": {"diameter": 50, "height": 100},
         "loading": {"confining_pressure": 4.5}})"),
                                 "deck.json");

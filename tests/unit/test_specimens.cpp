@@ -234,6 +234,13 @@ TEST_CASE("broken sphere meshes are refused with file and line") {
     };
     CHECK(message("a.csv", "0,0,0,0.5\n0,0,2,-1\n").find("a.csv: line 2: radius -1 is not positive") != std::string::npos);
     CHECK(message("b.csv", "0,0,0,0.5\n0,0,nan,1\n").find("b.csv: line 2: a place or a size is missing") != std::string::npos);
+    const auto bad = message("m.csv", "x,y,z,r\n0,0,0,0.5\n1,0,0,-1\n0,,1,0.5\n0,1,0,0\n1,1,1,x\n0,0,1,0.5\n2,1,1,0.5\n3,1,1,0.5\n");
+    for (const char* part : {"line 6: \"x\" is no number", "line 3: radius -1 is not positive", "line 4: a place or a size is missing",
+                             "line 5: radius 0 is not positive"}) {
+        CHECK(bad.find(part) != std::string::npos);
+    }
+    CHECK(message("p.csv", "1 0.1 0.2 0.3 0.05\n2 0.2 0.3 0.1 0.05\n3 0.5 0.1 0.2 0.05\n").find("the first column counts the rows") !=
+          std::string::npos);
     CHECK(message("c.csv", "0,0,0,0.5\n0,0,1\n").find("c.csv: line 2: 3 cells where the other rows have 4") != std::string::npos);
     CHECK(message("d.csv", "0,0,0,0.5\n").find("at least 2") != std::string::npos);
     CHECK(message("e.stl", "solid\n").find("unknown ending") != std::string::npos);

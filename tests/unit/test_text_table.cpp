@@ -114,6 +114,20 @@ TEST_CASE("text table: missing cells, text in other columns, cells that are no n
     CHECK(holds(refusal([&] { (void)w.numbers(0); }), "line 2: \"x\" is no number"));
 }
 
+TEST_CASE("text table: headings behind a comment's mark, and text that is no UTF-8") {
+    const TemporaryFolder folder;
+    const TextTable t(folder.file("n.csv", "# made by hand\n# strain,stress [MPa]\n1,2\n3,4\n"));
+    CHECK(t.find("stress") == 1);
+    CHECK(t.columns()[1].unit == "MPa");
+    const TextTable none(folder.file("c.csv", "# two words, and more, here\n1,2\n3,4\n"));
+    CHECK_FALSE(none.has_headings());
+    const TextTable latin(folder.file("l.csv", "strain (\xb5m/m);stress (N/mm\xb2)\n1;2\n3;4\n"));
+    CHECK(latin.columns()[0].unit == "µm/m");
+    CHECK(latin.columns()[1].unit == "N/mm²");
+    const TextTable utf(folder.file("u.csv", "strain (µm/m);stress (N/mm²)\n1;2\n3;4\n"));
+    CHECK(utf.columns()[1].unit == "N/mm²");
+}
+
 TEST_CASE("text table: lines with the same fault are told together") {
     const TemporaryFolder folder;
     const TextTable t(folder.file("t.csv", "a,b\n1,2\nx,3\n4,5\ny,6\n7,8\n9,1\n"));
