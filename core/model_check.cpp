@@ -55,7 +55,8 @@ void Model::check_places() const {
 }
 
 // An unstable step makes energy out of nothing, more of it every step, long before anything stops being a number. What is looked at is
-// energy made only: what gets lost is told in the report. An amount that no bond would notice says nothing.
+// energy made only: what gets lost is told in the report. An amount that no bond would notice says nothing, and nothing tells which that is
+// where there are no spheres yet.
 void Model::check() const {
     std::ostringstream what;
     const double made = -ledger_.residual();
@@ -63,7 +64,7 @@ void Model::check() const {
     const double most = numerics_.fastest * mean_radius_ / dt_;
     if (!std::isfinite(ledger_.spent()) || !std::isfinite(fastest_)) {
         what << "a quantity is no number any more; probable cause: a time step above the critical one, or forces beyond all measure";
-    } else if (made > numerics_.energy_made * std::fmax(std::fabs(ledger_.given()), noticeable) && made > noticeable &&
+    } else if (noticeable > 0.0 && made > numerics_.energy_made * std::fmax(std::fabs(ledger_.given()), noticeable) && made > noticeable &&
                dt_ > 1e-3 * stable_) { // else nothing is stiff
         what << "the energy ledger shows " << made << " J made out of nothing, " << ledger_.given()
              << " J having been put in; probable cause: "

@@ -53,6 +53,14 @@ class Scenes(Case):
                      "fields/surfaces_0000.vtp"):
             self.assertTrue((self.folder / "out" / file).is_file(), file)
 
+    def test_bodies_may_be_alone_and_particles_no_faster_than_the_step(self):
+        body = {"name": "block", "shape": "box", "size": ["50 mm", "50 mm", "50 mm"], "cells": [1, 1, 1], "young_modulus": "1 MPa", "density": 1000}
+        late = dict(FALL, count=1, begin="0.8 ms")
+        self.run_scene(scene(surfaces=[], bodies=[body], particles=[late], gravity=[0, 0, 0], stop={"time": 0.001}))
+        self.assertEqual(self.result()["status"], "complete")
+        done = self.run_scene(scene(particles=[dict(FALL, velocity=[0, 0, "-2000 m/s"])]), "--check", code=2)
+        self.assertIn("/particles/0/velocity: found 2e+03 m/s", done.stderr)
+
     def test_same_bits_whatever_the_threads_and_from_the_manifest(self):
         stones = dict(FALL, name="stones", form="stone", count=20, size="20 mm", spheres=6, forms=3)
         content = scene(particles=[FALL, stones], stop={"time": 0.12})
