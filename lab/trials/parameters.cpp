@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/input/describe.hpp"
 #include "core/input/suggest.hpp"
@@ -46,8 +47,8 @@ void collect(const Json& json, const std::string& prefix, std::vector<std::strin
     }
 }
 
-// SI unit of a value, by what a deck of the test declares.
-std::string unit_of(const std::string& path, const std::string& test) {
+// What a deck of the test declares of a value; nothing: no such thing.
+std::optional<input::ParameterInfo> declared_at(const std::string& path, const std::string& test) {
     std::string declared = path;
     const auto dot = declared.rfind('.');
     if (dot != std::string::npos && declared.find_first_not_of("0123456789", dot + 1) == std::string::npos) {
@@ -59,10 +60,22 @@ std::string unit_of(const std::string& path, const std::string& test) {
     declare(describer, deck);
     for (const auto& p : describer.parameters()) {
         if (p.path == declared) {
-            return p.unit;
+            return p;
         }
     }
-    return "";
+    return std::nullopt;
+}
+
+// SI unit of a value.
+std::string unit_of(const std::string& path, const std::string& test) {
+    const auto declared = declared_at(path, test);
+    return declared ? declared->unit : "";
+}
+
+// Whether a value is a text or one of some words, and never a number.
+bool is_text(const std::string& path, const std::string& test) {
+    const auto declared = declared_at(path, test);
+    return declared && (declared->allowed == "text" || declared->allowed.starts_with('"'));
 }
 
 // What a deck itself says to a number at that path, such as that its law has no such key.
@@ -195,10 +208,10 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, const std::vec
         }
         const auto with =
             std::find_if(decks.begin(), decks.end(), [&](const Json& d) { return has(d, p.path) && may_be_number(d[pointer_of(p.path)]); });
-        const bool text = with != decks.end() && (*with)[pointer_of(p.path)].is_string();
-        const std::string why = with == decks.end() || text ? why_not(p.path, decks, source) : "";
-        if (with == decks.end() || p.path.find('/') != std::string::npos || (text && !why.empty())) {
+        const bool text = with != decks.end() && is_text(p.path, input::text_at(*with, "test"));
+        if (with == decks.end() || text || p.path.find('/') != std::string::npos) {
             const std::string best = input::nearest(p.path, known);
+            const std::string why = text ? "it takes a text" : why_not(p.path, decks, source);
             complain("/path", "\"" + p.path + "\"", "the dotted path of a number in the decks",
                      !why.empty()   ? why
                      : best.empty() ? ""

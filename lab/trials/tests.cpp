@@ -178,6 +178,9 @@ std::vector<TrialTest> take_tests(Json& json, const std::string& file, input::Pr
                 complain(at + "/deck", deck.dump(), "a deck, or the name of its file");
                 continue;
             }
+            if (value_at(deck, "/specimen/file") != nullptr && test.written.contains("specimen")) {
+                test.written.erase("specimen"); // a stored specimen takes the place of the recipe that the tests share
+            }
             test.written.merge_patch(deck);
             const Json& begun =
                 decks_begun_with.is_object() && decks_begun_with.contains(keys.name) ? decks_begun_with[keys.name] : test.written;

@@ -264,6 +264,12 @@ TEST_CASE("what is wrong with a sweep is said at its place") {
     CHECK(law.front().suggestion.find("it belongs to law") != std::string::npos);
     CHECK(path_of(R"(, "design": "sobol", "seed": 3)") == "/seed");
     CHECK(path_of(R"(, "design": "latin_hypercube", "levels": 4)") == "/levels");
+    const auto text = problems_of_sweep(folder.file("t.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs"}}],
+        "parameters": [{"path": "material.card", "low": 1, "high": 2}, {"path": "material/density", "low": 2000, "high": 2500}]})"));
+    REQUIRE(text.size() == 2);
+    CHECK(text[0].path == "/parameters/0/path");
+    CHECK(text[0].suggestion == "it takes a text");
+    CHECK(text[1].path == "/parameters/1/path");
     const auto beyond =
         problems_of_sweep(folder.file("b.json", R"({"tests": [{"name": "press", "deck": {"test": "ucs", "material": {"card": "custom"}}}],
         "parameters": [{"path": "material.tau_f", "low": -1, "high": "9 MPa"}, {"path": "material.mu_s", "values": [0.1, 0.2]}]})"));
