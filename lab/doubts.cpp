@@ -100,6 +100,11 @@ std::string modulus_off(const Card& card, const std::vector<report::Scalar>& res
     };
     auto e = measured("young_modulus");
     e = e == results.end() ? measured("young_modulus_platens") : e; // where the gauge saw nothing
+    const bool asked = std::any_of(results.begin(), results.end(), [](const auto& s) { return s.name == "young_modulus"; });
+    if (asked && e == results.end() && card.elasticity != "as-given") {
+        return fmt::format("E could not be measured, so that nothing tells whether the specimen has the {} of its card.",
+                           modulus(card.young_modulus));
+    }
     if (card.elasticity == "as-given" || e == results.end() || std::fabs(*e->value / card.young_modulus - 1.0) <= modulus_tolerance) {
         return "";
     }

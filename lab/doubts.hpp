@@ -22,7 +22,7 @@ std::string recovered_peak(const Loading& loading);
 /// Bonds failed while the specimen was unloaded. bonds: number of all.
 std::string broken_by_unloading(const report::Table& curve, const std::vector<FailureEvent>& events, std::size_t bonds, double sense);
 
-/// The Young's modulus among the results is not the card's, where that is the specimen's.
+/// The Young's modulus among the results is not the card's, where that is the specimen's, or could not be measured.
 std::string modulus_off(const Card& card, const std::vector<report::Scalar>& results, const Measured& measured);
 
 /// All of these for a test of a bonded specimen.

@@ -115,7 +115,10 @@ TEST_CASE("a modulus off the card's is said with both figures, and why where its
     const auto stiff = modulus_off(card, {{"young_modulus", "E", {}, "Pa", ""}, {"young_modulus_platens", "E", 56e12, "Pa", ""}},
                                    {curve, elastic, none, shape, press});
     CHECK(speaks_of(stiff, "56000 GPa"));
-    card.elasticity = "as-given"; // the bonds' modulus and not the specimen's
+    CHECK(speaks_of(modulus_off(card, {{"young_modulus", "E", {}, "Pa", ""}}, {curve, elastic, none, shape, press}),
+                    "could not be measured"));
+    CHECK(modulus_off(card, {}, {curve, elastic, none, shape, press}).empty()); // a test that does not ask for it
+    card.elasticity = "as-given";                                               // the bonds' modulus and not the specimen's
     CHECK(of(20e9, elastic).empty());
 }
 
