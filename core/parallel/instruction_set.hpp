@@ -20,8 +20,8 @@ template <class Kernel> Kernel pick_variant(Kernel baseline, Kernel avx2, Kernel
     return set == InstructionSet::avx512 ? avx512 : set == InstructionSet::avx2 ? avx2 : baseline;
 }
 
-// The variant of a kernel that this machine runs: PROVETA_PICK(bond_kernels). Builds of one variant (PROVETA_ONE_VARIANT, as for sanitizers,
-// and for other processors) have the baseline alone.
+// The variant of a kernel that this machine runs, as PROVETA_PICK(bond_kernels). Builds of one variant (PROVETA_ONE_VARIANT) are for
+// sanitizers and for other processors and have the baseline alone.
 #ifdef PROVETA_ONE_VARIANT
 #define PROVETA_PICK(name) name##_baseline
 #else
